@@ -1,0 +1,1 @@
+"""Draw on serial OLED, LCD and LED panels; only what changed travels."""

@@ -1,0 +1,1 @@
+"""The examples, runnable by name: ``paneldraw demo clock``."""

@@ -1,0 +1,31 @@
+"""What the outside world does wrong. Wrong arguments are ``ValueError`` and ``TypeError``."""
+
+from __future__ import annotations
+
+
+class PanelError(Exception):
+    """Root of all that can go wrong between a script and the glass."""
+
+
+class TransportError(PanelError, OSError):
+    """The bus, the port or the panel at its far end failed; ``errno`` says how where the system said so."""
+
+
+class PanelNotFoundError(TransportError):
+    """There is no such bus or port, or nobody answers at the address."""
+
+
+class PanelPermissionError(TransportError):
+    """The bus or port exists and this user may not open it."""
+
+
+class PanelTimeoutError(TransportError):
+    """The panel or its bus took too long."""
+
+
+class PanelDisconnectedError(TransportError):
+    """The panel or its port was there and is gone."""
+
+
+class ProtocolError(PanelError):
+    """The far end of a serial link answered something that the protocol does not allow."""

@@ -1,0 +1,1 @@
+"""Byte-level panels, buses and recorders: the whole path with no hardware."""

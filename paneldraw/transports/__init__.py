@@ -1,0 +1,1 @@
+"""What carries command and data bytes to a panel."""
