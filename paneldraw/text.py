@@ -1,0 +1,334 @@
+"""Fonts and text layout: which pixels a text covers, never how they are painted."""
+
+from __future__ import annotations
+
+import functools
+import os
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, Protocol
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+    from PIL import ImageFont
+
+TAB = 4
+"""Columns between tab stops, in characters: a narrow panel has about twenty of them."""
+
+REPLACEMENT = "\N{REPLACEMENT CHARACTER}"
+"""The box that stands for a character the built-in font has no picture of."""
+
+_ANCHORS = {h + v for h in "lmr" for v in "atmsbd"}
+
+
+class _Face(Protocol):
+    """What draws the characters of a font."""
+
+    def line(self, text: str) -> NDArray[np.uint8]:
+        """Coverage 0 ... 255 of one line of text, an array of shape (height, width)."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Font:
+    """A typeface at one size. Immutable; a font can be shared by panels and threads.
+
+    Scripts use the built-in font by naming none, or make one with :meth:`truetype` or :meth:`from_pillow`.
+
+    Attributes
+    ----------
+    name : str
+        What people call it.
+    width : int
+        Columns of the widest printable ASCII character.
+    height : int
+        Rows of a line of text, descenders included; also the distance from one line to the next.
+    advance : int
+        Columns from one character to the next, 0 where it depends on the character.
+    baseline : int
+        The row, counted from the top, on which letters stand.
+
+    Examples
+    --------
+    >>> from paneldraw import Font
+    >>> font = Font.builtin()
+    >>> font.name, font.width, font.height, font.advance, font.baseline
+    ('6x8', 5, 8, 6, 6)
+    >>> font.measure("21.5°C")
+    (35, 8)
+    """
+
+    name: str
+    width: int
+    height: int
+    advance: int
+    baseline: int
+    _face: _Face = field(repr=False)
+
+    @staticmethod
+    def builtin() -> Font:
+        """Return the font that is used where none is named: 6x8 cells, ASCII, arrows and the signs of measurement.
+
+        A character that it does not have is drawn as a box.
+        """
+        return _builtin()
+
+    @staticmethod
+    def truetype(path: str | os.PathLike[str], size: float, *, antialias: bool = False) -> Font:
+        """Return a TrueType or OpenType font.
+
+        Parameters
+        ----------
+        path : path-like
+            The font file, or the file name of an installed font such as ``"DejaVuSans.ttf"``.
+        size : float
+            Pixels to the em, positive.
+        antialias : bool, default False
+            Whether edges are grey. The crisp default suits panels of one bit a pixel.
+
+        Raises
+        ------
+        ValueError
+            If the size is not positive.
+        OSError
+            If there is no such font or it cannot be read.
+        """
+        from PIL import ImageFont
+
+        if not size > 0:
+            raise ValueError(f"size must be positive, not {size}")
+        try:
+            loaded = ImageFont.truetype(os.fspath(path), size)
+        except OSError as error:
+            raise OSError(
+                f"cannot read font {os.fspath(path)!r} ({error}); give the path of a .ttf or .otf file"
+            ) from error
+        return Font.from_pillow(loaded, antialias=antialias)
+
+    @staticmethod
+    def from_pillow(
+        font: ImageFont.FreeTypeFont | ImageFont.ImageFont, *, name: str | None = None, antialias: bool = False
+    ) -> Font:
+        """Return a font that Pillow draws: ``ImageFont.truetype(...)``, ``ImageFont.load(...)``.
+
+        Parameters
+        ----------
+        font : PIL.ImageFont.FreeTypeFont or PIL.ImageFont.ImageFont
+            The font as Pillow loaded it.
+        name : str, optional
+            What people call it. Default: the name in the font file.
+        antialias : bool, default False
+            Whether edges are grey; a bitmap font has none.
+
+        Raises
+        ------
+        TypeError
+            If it is no font of Pillow's.
+        """
+        from PIL import ImageFont
+
+        face: _Face
+        if isinstance(font, ImageFont.FreeTypeFont):
+            ascent, descent = font.getmetrics()
+            face = _FreeTypeFace(font, ascent, ascent + descent, "L" if antialias else "1")
+            known = " ".join(part for part in font.getname() if part)
+        elif isinstance(font, ImageFont.ImageFont):
+            ascent, descent = int(font.getbbox("Ag")[3]), 0
+            face = _BitmapFace(font, ascent)
+            known = "bitmap"
+        else:
+            raise TypeError(f"font must be an ImageFont of Pillow's, not {type(font).__name__}")
+        widest = max(face.line(chr(code)).shape[1] for code in range(0x20, 0x7F))
+        return Font(name or known, widest, ascent + descent, 0, ascent - 1, face)
+
+    def glyph(self, char: str) -> NDArray[np.uint8]:
+        """Return the picture of one character.
+
+        Parameters
+        ----------
+        char : str
+            One character.
+
+        Returns
+        -------
+        numpy.ndarray
+            Coverage 0 ... 255, shape (height, width of the character); 0 or 255 unless the font is anti-aliased.
+
+        Raises
+        ------
+        ValueError
+            If it is not exactly one character.
+        """
+        if len(char) != 1:
+            raise ValueError(f"char must be one character, not {char!r}")
+        return self._face.line(char)
+
+    def measure(self, text: str) -> tuple[int, int]:
+        """Return (width, height) in pixels of a text, which may have several lines.
+
+        Examples
+        --------
+        >>> Font.builtin().measure("two\\nlines")
+        (29, 16)
+        """
+        covers = [self._face.line(line) for line in _lines(text)]
+        return max(cover.shape[1] for cover in covers), self.height * len(covers)
+
+
+def render(text: str, font: Font | None = None, anchor: str = "lt") -> tuple[NDArray[np.uint8], int, int]:
+    """Return what a text covers, and where that lies from the point it is anchored at.
+
+    Parameters
+    ----------
+    text : str
+        One or more lines, separated by ``"\\n"``. Tabs reach to the next fourth character.
+    font : Font, optional
+        Default: the built-in one.
+    anchor : str, default "lt"
+        Which pixel of the text's box is meant by (x, y), in Pillow's two letters. First ``l`` the leftmost, ``m`` the
+        middle or ``r`` the rightmost column; lines are flush with that side. Then ``t`` or ``a`` the topmost, ``m``
+        the middle, ``b`` or ``d`` the lowest row, or ``s`` the row that the first line stands on.
+
+    Returns
+    -------
+    coverage : numpy.ndarray
+        uint8 of shape (height, width), C-contiguous: 0 where there is no ink, 255 where there is, shades between where
+        the font is anti-aliased.
+    dx, dy : int
+        From the anchored point to the top-left pixel of the coverage.
+
+    Raises
+    ------
+    TypeError
+        If the text is not a string.
+    ValueError
+        If there is no such anchor.
+
+    Examples
+    --------
+    >>> from paneldraw.text import render
+    >>> coverage, dx, dy = render("Hi!", anchor="rb")
+    >>> coverage.shape, dx, dy
+    ((8, 17), -16, -7)
+    """
+    if anchor not in _ANCHORS:
+        raise ValueError(f"anchor must be one of l, m, r and one of a, t, m, s, b, d, such as 'lt', not {anchor!r}")
+    font = _builtin() if font is None else font
+    horizontal, vertical = anchor[0], anchor[1]
+    lines = _lines(text)
+    if len(lines) == 1:
+        coverage = np.ascontiguousarray(font._face.line(lines[0]))
+    else:
+        coverage = _stack([font._face.line(line) for line in lines], font.height, horizontal)
+    height, width = coverage.shape
+    dx = -_reach(horizontal, width) if horizontal != "l" else 0
+    dy = -font.baseline if vertical == "s" else -_reach(vertical, height)
+    return coverage, dx, dy
+
+
+def _lines(text: str) -> list[str]:
+    if not isinstance(text, str):
+        raise TypeError(f"text must be a string, not {type(text).__name__}; str(...) makes one")
+    return text.replace("\r\n", "\n").expandtabs(TAB).split("\n")
+
+
+def _reach(side: str, size: int) -> int:
+    """Pixels from the first of a row of ``size`` pixels to the one that an anchor's letter names."""
+    if side in "rbd":
+        return max(size - 1, 0)
+    return max(size - 1, 0) // 2 if side == "m" else 0
+
+
+def _stack(covers: list[NDArray[np.uint8]], height: int, side: str) -> NDArray[np.uint8]:
+    """Set lines one below the other, flush with a side."""
+    width = max(cover.shape[1] for cover in covers)
+    stacked = np.zeros((height * len(covers), width), np.uint8)
+    for row, cover in enumerate(covers):
+        left = _reach(side, width) - _reach(side, cover.shape[1])
+        stacked[row * height : (row + 1) * height, left : left + cover.shape[1]] = cover
+    return stacked
+
+
+class _Indices(dict[int, int]):
+    """Code point to column of the glyph table; whatever the font does not have is its replacement."""
+
+    def __missing__(self, code: int) -> int:
+        return self[ord(REPLACEMENT)]
+
+
+class _CellFace:
+    """Characters in cells of one size: a line is one look-up in a table of shape (height, characters, advance)."""
+
+    def __init__(self, indices: _Indices, table: NDArray[np.uint8], gap: int) -> None:
+        self._indices, self._table, self._gap = indices, table, gap
+
+    def line(self, text: str) -> NDArray[np.uint8]:
+        height, _, advance = self._table.shape
+        picks = np.frombuffer(text.translate(self._indices).encode("utf-16-le"), np.uint16)
+        width = len(picks) * advance
+        return self._table.take(picks, axis=1).reshape(height, width)[:, : max(width - self._gap, 0)]
+
+
+class _FreeTypeFace:
+    """An outline font; a line is drawn whole, so that kerning and ligatures come out as the font has them."""
+
+    def __init__(self, font: ImageFont.FreeTypeFont, ascent: int, height: int, mode: str) -> None:
+        self._font, self._ascent, self._height, self._mode = font, ascent, height, mode
+
+    def line(self, text: str) -> NDArray[np.uint8]:
+        left, _, right, _ = self._font.getbbox(text, self._mode, anchor="ls")
+        start = min(int(np.floor(left)), 0)
+        end = int(np.ceil(max(right, self._font.getlength(text, self._mode))))
+        return _draw(text, self._font, (end - start, self._height), self._mode, (-start, self._ascent), anchor="ls")
+
+
+class _BitmapFace:
+    """A bitmap font in Pillow's own format."""
+
+    def __init__(self, font: ImageFont.ImageFont, height: int) -> None:
+        self._font, self._height = font, height
+
+    def line(self, text: str) -> NDArray[np.uint8]:
+        width = int(self._font.getbbox(text)[2]) if text else 0
+        return _draw(text, self._font, (width, self._height), "1", (0, 0))
+
+
+def _draw(
+    text: str,
+    font: ImageFont.FreeTypeFont | ImageFont.ImageFont,
+    size: tuple[int, int],
+    mode: str,
+    origin: tuple[int, int],
+    anchor: str | None = None,
+) -> NDArray[np.uint8]:
+    from PIL import Image, ImageDraw
+
+    image = Image.new("L", size)
+    if text:
+        draw = ImageDraw.Draw(image)
+        draw.fontmode = mode
+        draw.text(origin, text, 255, font, anchor=anchor)
+    return np.array(image, np.uint8)
+
+
+@functools.cache
+def _builtin() -> Font:
+    from .font_6x8 import GLYPHS
+
+    height, advance = 8, 6
+    indices, table = _read_picture(GLYPHS, height, advance)
+    gap = 1
+    return Font(f"{advance}x{height}", advance - gap, height, advance, height - 2, _CellFace(indices, table, gap))
+
+
+def _read_picture(picture: str, height: int, advance: int) -> tuple[_Indices, NDArray[np.uint8]]:
+    """Read a font drawn in ``#`` and ``.``: bands of cells, each under a line that names their characters."""
+    rows = picture.strip("\n").split("\n")
+    names: list[str] = []
+    bands: list[NDArray[Any]] = []
+    for top in range(0, len(rows), height + 1):
+        cells = np.frombuffer("".join(row + " " for row in rows[top + 1 : top + 1 + height]).encode(), np.uint8)
+        bands.append((cells == ord("#")).reshape(height, -1, advance + 1)[:, :, :advance])
+        names.extend(rows[top][2 :: advance + 1])
+    indices = _Indices((ord(name), index) for index, name in enumerate(names))
+    return indices, np.concatenate(bands, axis=1).astype(np.uint8) * np.uint8(255)
