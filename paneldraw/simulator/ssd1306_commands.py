@@ -1,0 +1,275 @@
+"""What each command of the SSD1306 does to its registers, after the datasheet's command table.
+
+A command never fails on a chip. What the datasheet forbids is handed to ``complain``, and then happens as far as
+the register's bits allow.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Container, Sequence
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+HORIZONTAL, VERTICAL, PAGE = 0, 1, 2
+COLUMNS, PAGES, ROWS = 128, 8, 64
+COM_PINS = (0x02, 0x12, 0x22, 0x32)
+
+
+@dataclass
+class Scroll:
+    """The hardware scroll as set up by 26, 27, 29, 2A and A3; the simulator keeps it and does not move the picture.
+
+    ``opcode`` is 0 until a scroll is set up; ``interval`` is the datasheet's code 0 ... 7, not a number of frames.
+    """
+
+    opcode: int = 0
+    page_start: int = 0
+    page_end: int = 0
+    interval: int = 0
+    rows_per_step: int = 0
+    top_rows: int = 0
+    scroll_rows: int = ROWS
+    running: bool = False
+
+
+@dataclass
+class Registers:
+    """The registers of an SSD1306. The defaults are the values that reset gives them."""
+
+    mode: int = PAGE
+    column: int = 0
+    page: int = 0
+    column_start: int = 0
+    column_end: int = COLUMNS - 1
+    page_start: int = 0
+    page_end: int = PAGES - 1
+    start_line: int = 0
+    offset: int = 0
+    multiplex: int = ROWS - 1
+    com_pins: int = 0x12
+    segment_remap: bool = False
+    com_reversed: bool = False
+    contrast: int = 0x7F
+    all_on: bool = False
+    inverted: bool = False
+    on: bool = False
+    charge_pump: int = 0x10
+    clock: int = 0x80
+    precharge: int = 0x22
+    vcomh: int = 0x20
+    external_vcc: bool = False
+    scroll: Scroll = field(default_factory=Scroll)
+
+    @property
+    def pump_enabled(self) -> bool:
+        """Whether the charge pump is switched on."""
+        return bool(self.charge_pump & 0x04)
+
+
+Complain = Callable[[str], None]
+Act = Callable[[Registers, Sequence[int], Complain], None]
+
+
+class Command(NamedTuple):
+    """How many argument bytes a command takes, and what it does once they are there (the opcode is byte 0)."""
+
+    arguments: int
+    act: Act
+
+
+class _Setting(NamedTuple):
+    """A command whose one argument goes into one register."""
+
+    register: str
+    mask: int
+    legal: Container[int]
+    rule: str
+
+
+_SETTINGS = {
+    0x20: _Setting("mode", 0x03, (HORIZONTAL, VERTICAL, PAGE), "the addressing mode is 00, 01 or 02"),
+    0x81: _Setting("contrast", 0xFF, range(256), ""),
+    0xA8: _Setting("multiplex", 0x3F, range(15, 64), "the multiplex ratio is 0F to 3F (16 to 64 lines)"),
+    0xD3: _Setting("offset", 0x3F, range(64), "the display offset is 00 to 3F"),
+    0xD5: _Setting("clock", 0xFF, range(256), ""),
+    0xD9: _Setting(
+        "precharge", 0xFF, [n for n in range(256) if n & 0x0F and n & 0xF0], "a precharge phase of 0 clocks is invalid"
+    ),
+    0xDA: _Setting("com_pins", 0x30, COM_PINS, "the COM pins are 02, 12, 22 or 32"),
+    0xDB: _Setting("vcomh", 0x70, (0x00, 0x20, 0x30), "the VCOMH level is 00, 20 or 30"),
+}
+
+_FLAGS: dict[int, tuple[str, bool]] = {
+    0xA0: ("segment_remap", False),
+    0xA1: ("segment_remap", True),
+    0xA4: ("all_on", False),
+    0xA5: ("all_on", True),
+    0xA6: ("inverted", False),
+    0xA7: ("inverted", True),
+    0xAE: ("on", False),
+    0xC0: ("com_reversed", False),
+    0xC8: ("com_reversed", True),
+}
+
+# Drivers send these to every relative of the chip; an SSD1306 lets them pass, argument and all.
+_RELATIVES = {
+    0x23: "fade and blink of the SSD1306B",
+    0xAD: "reference current of the SSD1315",
+    0xD6: "zoom of the SSD1306B",
+}
+
+
+def _hex(sent: Sequence[int]) -> str:
+    return " ".join(f"{byte:02X}" for byte in sent)
+
+
+def _setting(setting: _Setting) -> Act:
+    def act(registers: Registers, sent: Sequence[int], complain: Complain) -> None:
+        if sent[1] not in setting.legal:
+            complain(f"{_hex(sent)}: {setting.rule}")
+        setattr(registers, setting.register, sent[1] & setting.mask)
+
+    return act
+
+
+def _flag(register: str, value: bool) -> Act:
+    def act(registers: Registers, sent: Sequence[int], complain: Complain) -> None:
+        setattr(registers, register, value)
+
+    return act
+
+
+def _relative(name: str) -> Act:
+    def act(registers: Registers, sent: Sequence[int], complain: Complain) -> None:
+        complain(f"{_hex(sent)}: not a command of the SSD1306 ({name}); ignored")
+
+    return act
+
+
+def _nothing(registers: Registers, sent: Sequence[int], complain: Complain) -> None:
+    pass
+
+
+def _unknown(registers: Registers, sent: Sequence[int], complain: Complain) -> None:
+    complain(f"{_hex(sent)}: not a command of the SSD1306; ignored")
+
+
+def _only_in_page_mode(registers: Registers, sent: Sequence[int], complain: Complain) -> None:
+    if registers.mode != PAGE:
+        complain(f"{_hex(sent)}: the page pointer commands B0-B7, 00-0F and 10-1F are for page addressing mode only")
+
+
+def _column_low(registers: Registers, sent: Sequence[int], complain: Complain) -> None:
+    _only_in_page_mode(registers, sent, complain)
+    registers.column = registers.column & 0x70 | sent[0] & 0x0F
+
+
+def _column_high(registers: Registers, sent: Sequence[int], complain: Complain) -> None:
+    _only_in_page_mode(registers, sent, complain)
+    if sent[0] > 0x17:
+        complain(f"{_hex(sent)}: there is no column past 127")
+    registers.column = (sent[0] & 0x07) << 4 | registers.column & 0x0F
+
+
+def _page_pointer(registers: Registers, sent: Sequence[int], complain: Complain) -> None:
+    _only_in_page_mode(registers, sent, complain)
+    registers.page = sent[0] & 0x07
+
+
+def _window(registers: Registers, sent: Sequence[int], complain: Complain) -> None:
+    axis, size = ("column", COLUMNS) if sent[0] == 0x21 else ("page", PAGES)
+    if registers.mode == PAGE:
+        complain(f"{_hex(sent)}: windows are for horizontal and vertical addressing mode only")
+    if max(sent[1:]) >= size:
+        complain(f"{_hex(sent)}: there is no {axis} past {size - 1}")
+    start, end = sent[1] % size, sent[2] % size
+    if start > end:
+        complain(f"{_hex(sent)}: the window starts at {axis} {start}, after its end at {end}")
+    setattr(registers, f"{axis}_start", start)
+    setattr(registers, f"{axis}_end", end)
+    setattr(registers, axis, start)
+
+
+def _start_line(registers: Registers, sent: Sequence[int], complain: Complain) -> None:
+    registers.start_line = sent[0] & 0x3F
+
+
+def _charge_pump(registers: Registers, sent: Sequence[int], complain: Complain) -> None:
+    if sent[1] & 0x3F not in (0x10, 0x14):
+        complain(f"{_hex(sent)}: the charge pump takes 10 (off) or 14 (on)")
+    elif registers.on and bool(sent[1] & 0x04) != registers.pump_enabled:
+        complain(f"{_hex(sent)}: the charge pump is switched while the display is off, before AF")
+    registers.charge_pump = sent[1]
+
+
+def _display_on(registers: Registers, sent: Sequence[int], complain: Complain) -> None:
+    if not (registers.pump_enabled or registers.external_vcc):
+        complain(f"{_hex(sent)}: display on without a supply for the panel; enable the charge pump first (8D 14)")
+    registers.on = True
+
+
+def _scroll(registers: Registers, sent: Sequence[int], complain: Complain) -> None:
+    scroll, text = registers.scroll, _hex(sent)
+    if scroll.running:
+        complain(f"{text}: a scroll is set up only while none is running; send 2E first")
+    if sent[1]:
+        complain(f"{text}: the first argument of a scroll is 00")
+    if max(sent[2], sent[4]) >= PAGES or sent[3] > 7:
+        complain(f"{text}: pages and interval of a scroll are 00 to 07")
+    elif sent[4] < sent[2]:
+        complain(f"{text}: the scroll's end page is before its start page")
+    scroll.opcode, scroll.page_start, scroll.interval, scroll.page_end = sent[0], sent[2] & 7, sent[3] & 7, sent[4] & 7
+    if sent[0] in (0x26, 0x27):
+        scroll.rows_per_step = 0
+        if (sent[5], sent[6]) != (0x00, 0xFF):
+            complain(f"{text}: the last arguments of a horizontal scroll are 00 FF")
+    else:
+        scroll.rows_per_step = sent[5] & 0x3F
+        if not 1 <= sent[5] <= 63:
+            complain(f"{text}: the vertical scroll offset is 01 to 3F")
+
+
+def _scroll_area(registers: Registers, sent: Sequence[int], complain: Complain) -> None:
+    if registers.scroll.running:
+        complain(f"{_hex(sent)}: the scroll area is set only while no scroll is running; send 2E first")
+    if sent[1] > 63 or sent[2] > 127 or sent[1] + sent[2] > registers.multiplex + 1:
+        complain(f"{_hex(sent)}: the fixed and the scrolling rows together are at most the multiplex ratio")
+    registers.scroll.top_rows, registers.scroll.scroll_rows = sent[1] & 0x3F, sent[2] & 0x7F
+
+
+def _scroll_run(registers: Registers, sent: Sequence[int], complain: Complain) -> None:
+    registers.scroll.running = sent[0] == 0x2F
+    if registers.scroll.running and not registers.scroll.opcode:
+        complain(f"{_hex(sent)}: a scroll is started and none was set up (26, 27, 29 or 2A)")
+
+
+def _command(opcode: int) -> Command:
+    for first, last, act in (
+        (0x00, 0x0F, _column_low),
+        (0x10, 0x1F, _column_high),
+        (0x40, 0x7F, _start_line),
+        (0xB0, 0xB7, _page_pointer),
+    ):
+        if first <= opcode <= last:
+            return Command(0, act)
+    return Command(0, _unknown)
+
+
+COMMANDS: dict[int, Command] = {
+    **{opcode: _command(opcode) for opcode in range(256)},
+    **{opcode: Command(1, _setting(setting)) for opcode, setting in _SETTINGS.items()},
+    **{opcode: Command(0, _flag(register, value)) for opcode, (register, value) in _FLAGS.items()},
+    **{opcode: Command(1, _relative(name)) for opcode, name in _RELATIVES.items()},
+    0x21: Command(2, _window),
+    0x22: Command(2, _window),
+    0x26: Command(6, _scroll),
+    0x27: Command(6, _scroll),
+    0x29: Command(5, _scroll),
+    0x2A: Command(5, _scroll),
+    0x2E: Command(0, _scroll_run),
+    0x2F: Command(0, _scroll_run),
+    0x8D: Command(1, _charge_pump),
+    0xA3: Command(2, _scroll_area),
+    0xAF: Command(0, _display_on),
+    0xE3: Command(0, _nothing),
+}
