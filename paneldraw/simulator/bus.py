@@ -256,7 +256,14 @@ class I2CBus:
         _block(data)
         return self.read_block_data(i2c_addr, register)
 
-    # faults
+    # time and faults
+
+    def idle(self, seconds: float) -> None:
+        """Let time pass with the wire at rest, as a script's pause does; the next frame is stamped that much later."""
+        if not seconds >= 0:
+            raise ValueError(f"seconds: {seconds!r} is not 0 or more")
+        with self._lock:
+            self._now += seconds
 
     def fail(
         self,

@@ -22,8 +22,11 @@ class Frame:
         When the picture was complete, on the bus's clock (see `I2CBus`).
     wire_bytes : int
         Bytes that the panel was sent since the frame before, address bytes included.
+    max_level : int
+        The level of a fully lit pixel.
     """
 
     pixels: Picture
     seconds: float
     wire_bytes: int
+    max_level: int = 1

@@ -62,6 +62,8 @@ class SSD1306:
     []
     """
 
+    max_level = 1
+
     def __init__(
         self,
         width: int = 128,
@@ -132,7 +134,7 @@ class SSD1306:
         pixels = self.pixels
         if not np.array_equal(pixels, self._seen):
             self._seen = pixels
-            self.frames.append(Frame(pixels, seconds, self._unframed_bytes))
+            self.frames.append(Frame(pixels, seconds, self._unframed_bytes, self.max_level))
             self._unframed_bytes = 0
 
     # what can be seen
