@@ -1,0 +1,114 @@
+# cython: language_level=3, boundscheck=False, wraparound=False, cdivision=True
+"""Lines one pixel wide: Bresenham's, and the DDA it is measured against.
+
+Both step along the longer axis, one pixel a step, from the end point with the smaller coordinate there, so that a
+line has the same pixels in either direction. Where the exact line passes halfway between two pixels, the one further
+along the shorter axis is lit.
+"""
+
+from __future__ import annotations
+
+import cython
+
+if cython.compiled:
+    from cython.cimports.paneldraw.raster.surface import Surface
+else:
+    from paneldraw.raster.surface import Surface
+
+
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def bresenham(
+    surface: Surface, x1: cython.longlong, y1: cython.longlong, x2: cython.longlong, y2: cython.longlong
+) -> cython.void:
+    """Bresenham's line, both end points included; coordinates within +-2**29.
+
+    The decision parameter p is the textbook's: it starts at 2 dy - dx; while it is negative the line stays on its
+    row and p grows by 2 dy, else the line moves to the next row and p grows by 2 dy - 2 dx. A line that comes from
+    outside of the window enters it with the p that it has there.
+    """
+    dx: cython.longlong = x2 - x1
+    dy: cython.longlong = y2 - y1
+    # Steps of the pixel's index along the longer axis ("x" from here on) and the shorter one ("y").
+    along: cython.Py_ssize_t = 1
+    across: cython.Py_ssize_t = surface.stride
+    left: cython.longlong = surface.left
+    right: cython.longlong = surface.right
+    top: cython.longlong = surface.top
+    bottom: cython.longlong = surface.bottom
+    if abs(dx) < abs(dy):
+        x1, y1, x2, y2, dx, dy = y1, x1, y2, x2, dy, dx
+        along, across = across, along
+        left, right, top, bottom = top, bottom, left, right
+    if dx < 0:
+        x1, y1, dx, dy = x2, y2, -dx, -dy
+    first: cython.longlong = max(0, left - x1)
+    last: cython.longlong = min(dx, right - 1 - x1)
+    i: cython.Py_ssize_t = x1 * along + y1 * across
+    # How many rows the line may have moved, at least and at most, to be in the window.
+    low: cython.longlong = top - y1
+    high: cython.longlong = bottom - 1 - y1
+    if dy < 0:
+        dy = -dy
+        across = -across
+        low, high = -high, -low
+    if low > dy or high < 0:
+        return
+    if low > 0:
+        first = max(first, ((2 * low - 1) * dx + 2 * dy - 1) // (2 * dy))
+    if high < dy:
+        last = min(last, ((2 * high + 1) * dx + 2 * dy - 1) // (2 * dy) - 1)
+    if first > last:
+        return
+    moved: cython.longlong = 0
+    end: cython.longlong = dy
+    if first > 0:
+        moved = (2 * first * dy + dx) // (2 * dx)
+    if last < dx:
+        end = (2 * last * dy + dx) // (2 * dx)
+    # From both ends to the middle: two short chains of decisions run faster than a long one. Backwards a tie
+    # falls the other way, so p is one less there.
+    stay: cython.longlong = 2 * dy
+    move: cython.longlong = 2 * dy - 2 * dx
+    diagonal: cython.Py_ssize_t = along + across
+    p: cython.longlong = 2 * dy * (first + 1) - dx * (2 * moved + 1)
+    q: cython.longlong = dx * (2 * end - 1) - 2 * dy * (last - 1) - 1
+    j: cython.Py_ssize_t = i + last * along + end * across
+    i += first * along + moved * across
+    pixels: cython.p_uchar = surface.pixels
+    ink: cython.p_uchar = surface.ink
+    below: cython.longlong
+    count: cython.longlong = last - first + 1
+    while count > 1:
+        pixels[i] = ink[pixels[i]]
+        pixels[j] = ink[pixels[j]]
+        # -1 where p is negative and 0 elsewhere: a branch would be guessed wrong half of the time.
+        below = p >> 63
+        p += move + (below & (stay - move))
+        i += diagonal + (below & (along - diagonal))
+        below = q >> 63
+        q += move + (below & (stay - move))
+        j -= diagonal + (below & (along - diagonal))
+        count -= 2
+    if count:
+        pixels[i] = ink[pixels[i]]
+
+
+@cython.cfunc
+def bresenham_far(surface: Surface, x1: object, y1: object, x2: object, y2: object) -> object:
+    """The same line between end points at any distance, found column by visible column (row, if steep)."""
+    steep = abs(x2 - x1) < abs(y2 - y1)
+    if steep:
+        x1, y1, x2, y2 = y1, x1, y2, x2
+    if x2 < x1:
+        x1, y1, x2, y2 = x2, y2, x1, y1
+    dx = x2 - x1
+    dy = y2 - y1
+    low, high = (surface.top, surface.bottom) if steep else (surface.left, surface.right)
+    limit = max(surface.right, surface.bottom)
+    for x in range(max(x1, low), min(x2 + 1, high)):
+        moved = (2 * (x - x1) * abs(dy) + dx) // (2 * dx)
+        y = y1 + moved if dy >= 0 else y1 - moved
+        if 0 <= y < limit:
+            surface.point(y if steep else x, x if steep else y)

@@ -1,0 +1,8 @@
+from paneldraw.raster.surface cimport Surface
+
+cdef class Supersample:
+    cdef readonly int n
+    cdef readonly object reference
+    cdef bint corner
+
+cdef void paint(Surface surface, Py_ssize_t y, Py_ssize_t *spans, Py_ssize_t count, int n) noexcept nogil

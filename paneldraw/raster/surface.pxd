@@ -1,0 +1,16 @@
+cdef class Surface:
+    cdef unsigned char *pixels
+    cdef readonly object memory
+    cdef object scratch
+    cdef readonly Py_ssize_t origin, stride, width, height
+    cdef readonly Py_ssize_t left, top, right, bottom
+    cdef readonly int max_level
+    cdef unsigned char[256] ink
+    cdef int level, op
+    cdef int *row
+
+    cdef object reserve(self)
+    cdef void dip(self, int level, int op) noexcept nogil
+    cdef void point(self, Py_ssize_t x, Py_ssize_t y) noexcept nogil
+    cdef void span(self, Py_ssize_t y, Py_ssize_t x1, Py_ssize_t x2) noexcept nogil
+    cdef void blend(self, Py_ssize_t y, Py_ssize_t x1, Py_ssize_t x2, int full) noexcept nogil
