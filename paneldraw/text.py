@@ -50,7 +50,7 @@ class Font:
 
     Examples
     --------
-    >>> from paneldraw import Font
+    >>> from paneldraw.text import Font
     >>> font = Font.builtin()
     >>> font.name, font.width, font.height, font.advance, font.baseline
     ('6x8', 5, 8, 6, 6)
@@ -140,6 +140,30 @@ class Font:
             raise TypeError(f"font must be an ImageFont of Pillow's, not {type(font).__name__}")
         widest = max(face.line(chr(code)).shape[1] for code in range(0x20, 0x7F))
         return Font(name or known, widest, ascent + descent, 0, ascent - 1, face)
+
+    def scaled(self, factor: int) -> Font:
+        """Return the font with each pixel a square of `factor` x `factor` pixels.
+
+        Raises
+        ------
+        ValueError
+            If the factor is not a whole number of 1 or more.
+
+        Examples
+        --------
+        >>> Font.builtin().scaled(2).measure("12:34")
+        (58, 16)
+        """
+        if not (isinstance(factor, int) and factor >= 1):
+            raise ValueError(f"factor must be a whole number of 1 or more, not {factor!r}")
+        return Font(
+            f"{self.name} x{factor}",
+            self.width * factor,
+            self.height * factor,
+            self.advance * factor,
+            (self.baseline + 1) * factor - 1,
+            _ScaledFace(self._face, factor),
+        )
 
     def glyph(self, char: str) -> NDArray[np.uint8]:
         """Return the picture of one character.
@@ -267,6 +291,16 @@ class _CellFace:
         picks = np.frombuffer(text.translate(self._indices).encode("utf-16-le"), np.uint16)
         width = len(picks) * advance
         return self._table.take(picks, axis=1).reshape(height, width)[:, : max(width - self._gap, 0)]
+
+
+class _ScaledFace:
+    """Another face with larger pixels."""
+
+    def __init__(self, face: _Face, factor: int) -> None:
+        self._face, self._factor = face, factor
+
+    def line(self, text: str) -> NDArray[np.uint8]:
+        return self._face.line(text).repeat(self._factor, axis=0).repeat(self._factor, axis=1)
 
 
 class _FreeTypeFace:
