@@ -95,7 +95,7 @@ _SETTINGS = {
     0xD9: _Setting(
         "precharge", 0xFF, [n for n in range(256) if n & 0x0F and n & 0xF0], "a precharge phase of 0 clocks is invalid"
     ),
-    0xDA: _Setting("com_pins", 0x30, COM_PINS, "the COM pins are 02, 12, 22 or 32"),
+    0xDA: _Setting("com_pins", 0x3F, COM_PINS, "the COM pins are 02, 12, 22 or 32"),
     0xDB: _Setting("vcomh", 0x70, (0x00, 0x20, 0x30), "the VCOMH level is 00, 20 or 30"),
 }
 
@@ -225,8 +225,8 @@ def _scroll(registers: Registers, sent: Sequence[int], complain: Complain) -> No
             complain(f"{text}: the last arguments of a horizontal scroll are 00 FF")
     else:
         scroll.rows_per_step = sent[5] & 0x3F
-        if not 1 <= sent[5] <= 63:
-            complain(f"{text}: the vertical scroll offset is 01 to 3F")
+        if not 1 <= sent[5] < min(scroll.scroll_rows, 64):
+            complain(f"{text}: the vertical scroll offset is 01 to 3F and below the scrolling rows")
 
 
 def _scroll_area(registers: Registers, sent: Sequence[int], complain: Complain) -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shutil
 import sys
 from types import TracebackType
 from typing import Any, Literal, TextIO
@@ -122,7 +121,7 @@ class TerminalView:
         self._last = [*lines, caption] if caption else lines
         if not self._live:
             return
-        columns, rows = shutil.get_terminal_size()
+        columns, rows = _terminal_size()
         visible = [line[:columns] for line in self._last[: rows - 1]]
         start = f"\x1b[{self._lines_above}A\r" if self._lines_above else ""
         if not self._hidden:
@@ -163,8 +162,14 @@ class TerminalView:
             return "ascii"
         if not self._live:
             return "blocks"
-        columns, rows = shutil.get_terminal_size()
+        columns, rows = _terminal_size()
         across, down = _CELLS["blocks"]
         frame = 2 * self._border
         fits = width / across + frame <= columns and height / down + frame + 2 <= rows
         return "blocks" if fits else "braille"
+
+
+def _terminal_size() -> tuple[int, int]:
+    import shutil
+
+    return shutil.get_terminal_size()
