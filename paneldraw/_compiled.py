@@ -24,7 +24,10 @@ MODULES = (
     "paneldraw.raster.thick",
     "paneldraw.raster.curves",
     "paneldraw.raster.masks",
-    "paneldraw.framebuffer",
+    "paneldraw.framebuffer.arguments",
+    "paneldraw.framebuffer.lines",
+    "paneldraw.framebuffer.shapes",
+    "paneldraw.framebuffer.framebuffer",
 )
 
 

@@ -1,5 +1,5 @@
 # cython: language_level=3, boundscheck=False, wraparound=False, cdivision=True
-"""The pixels that shapes are painted on: memory, the window that may be painted, and how a level meets what is there."""
+"""The pixels that shapes are painted on, the window that may be painted, and how a level meets what is there."""
 
 from __future__ import annotations
 
@@ -123,7 +123,9 @@ class Surface:
     @cython.cfunc
     @cython.nogil
     @cython.exceptval(check=False)
-    def blend(self, y: cython.Py_ssize_t, x1: cython.Py_ssize_t, x2: cython.Py_ssize_t, full: cython.int) -> cython.void:
+    def blend(
+        self, y: cython.Py_ssize_t, x1: cython.Py_ssize_t, x2: cython.Py_ssize_t, full: cython.int
+    ) -> cython.void:
         """Paint pixels ``x1 <= x < x2`` of row `y`, which are in the window, by the coverage counted in `row`.
 
         `row` holds differences: pixel x is covered ``row[x1] + ... + row[x]`` times of `full`. It is zero afterwards.

@@ -111,13 +111,23 @@ def slab(
         reach: cython.longlong = half if square else 0
         if dy == 0:
             block(
-                surface, 2 * n * min(x1, x2) - reach, 2 * n * y1 - half, 2 * n * max(x1, x2) + reach, 2 * n * y1 + half,
-                n, corner,
+                surface,
+                2 * n * min(x1, x2) - reach,
+                2 * n * y1 - half,
+                2 * n * max(x1, x2) + reach,
+                2 * n * y1 + half,
+                n,
+                corner,
             )
         else:
             block(
-                surface, 2 * n * x1 - half, 2 * n * min(y1, y2) - reach, 2 * n * x1 + half, 2 * n * max(y1, y2) + reach,
-                n, corner,
+                surface,
+                2 * n * x1 - half,
+                2 * n * min(y1, y2) - reach,
+                2 * n * x1 + half,
+                2 * n * max(y1, y2) + reach,
+                n,
+                corner,
             )
         return
     if dy < 0:
@@ -126,7 +136,8 @@ def slab(
     # Half a width, times the length; rounded down for edges that belong to the shape, up for those that do not.
     inside: cython.longlong = _root_of_product(n * width, squared)
     outside: cython.longlong = inside
-    if cython.cast(cython.ulonglong, inside) * inside != cython.cast(cython.ulonglong, n * width) * (n * width) * squared:
+    scale: cython.ulonglong = n * width
+    if cython.cast(cython.ulonglong, inside) * inside != scale * scale * squared:
         outside += 1
     end_inside: cython.longlong = inside if square else 0
     end_outside: cython.longlong = outside if square else 0

@@ -1,0 +1,163 @@
+# cython: language_level=3, boundscheck=False, wraparound=False, cdivision=True
+"""What the arguments of a drawing call mean, and what is said of those that mean nothing."""
+
+from __future__ import annotations
+
+import math
+import operator
+from typing import Any
+
+import cython
+import numpy as np
+from numpy.typing import NDArray
+
+from paneldraw.raster.surface import OPS
+
+if cython.compiled:
+    from cython.cimports.cpython.long import PyLong_AsLongLongAndOverflow
+    from cython.cimports.paneldraw.raster.supersample import Supersample
+else:
+    from paneldraw.raster.supersample import Supersample
+
+LARGEST = 65536
+
+# Numbers within +-NEAR are handled in 64-bit arithmetic, others in Python's; FAR stands for those.
+NEAR = cython.declare(cython.longlong, 1 << 29)
+FAR = cython.declare(cython.longlong, 1 << 62)
+
+_ALIASED = Supersample(1)
+
+
+@cython.cfunc
+@cython.exceptval(check=False)
+def quick(value: object) -> cython.longlong:
+    """`value`, if it is an int within +-NEAR, else FAR."""
+    if type(value) is not int:
+        return FAR
+    overflow: cython.int = 0
+    number: cython.longlong = (
+        PyLong_AsLongLongAndOverflow(value, cython.address(overflow)) if cython.compiled else value
+    )
+    if overflow == 0 and -NEAR <= number <= NEAR:
+        return number
+    return FAR
+
+
+def real(name: str, value: Any) -> int | float:
+    """`value` as an int of any size or a finite float."""
+    try:
+        return operator.index(value)
+    except TypeError:
+        pass
+    try:
+        if isinstance(value, (str, bytes)):
+            raise TypeError
+        number = float(value)
+    except (TypeError, ValueError):
+        raise TypeError(f"{name} must be a number, not {type(value).__name__}") from None
+    if not math.isfinite(number):
+        raise ValueError(f"{name} must be finite, not {number}")
+    return number
+
+
+def whole(name: str, value: Any) -> int:
+    """The whole number nearest to `value`, halves upward."""
+    number = real(name, value)
+    return number if isinstance(number, int) else math.floor(number + 0.5)
+
+
+def to_256ths(name: str, value: Any) -> int:
+    """The nearest number of 256ths of a pixel, halves upward."""
+    number = real(name, value)
+    return number * 256 if isinstance(number, int) else math.floor(number * 256 + 0.5)
+
+
+def size(name: str, value: Any) -> int:
+    """`value` as an int, if it is whole by type."""
+    try:
+        return operator.index(value)
+    except TypeError:
+        raise TypeError(f"{name} must be a whole number of pixels, not {type(value).__name__}") from None
+
+
+def not_negative(name: str, number: int) -> int:
+    if number < 0:
+        raise ValueError(f"{name} must not be negative, and is {number}")
+    return number
+
+
+def operation(op: Any) -> int:
+    """The number that `Surface.dip` takes."""
+    try:
+        return OPS[op]
+    except (KeyError, TypeError):
+        raise ValueError(f"op must be one of {', '.join(map(repr, OPS))}, not {op!r}") from None
+
+
+def as_samples(antialias: Any) -> Supersample:
+    """A call's anti-aliasing as a Supersample; None is one sample a pixel."""
+    if antialias is None:
+        return _ALIASED
+    if not isinstance(antialias, Supersample):
+        raise TypeError(f"antialias must be None or a Supersample, such as Supersample(4), not {antialias!r}")
+    return antialias
+
+
+def reaches(cap: Any) -> bool:
+    """Whether a line with this cap goes on for half a width beyond its end points."""
+    if cap not in ("square", "butt"):
+        raise ValueError(f'cap must be "square" or "butt", not {cap!r}')
+    return cap == "square"
+
+
+def line_width(width: Any) -> int:
+    """A line's width in 256ths of a pixel."""
+    fixed = to_256ths("width", width)
+    if fixed <= 0:
+        raise ValueError(f"width must be above 0 pixels, not {width}")
+    return fixed
+
+
+def table(name: str, rows: Any, columns: int) -> NDArray[Any]:
+    """`rows` as an array of numbers of shape (n, columns)."""
+    table = np.asarray(rows)
+    if table.size == 0:
+        return np.zeros((0, columns), np.int64)
+    if table.dtype.kind not in "biufO":
+        raise TypeError(f"{name} must hold numbers, not {table.dtype}")
+    if table.ndim != 2 or table.shape[1] != columns:
+        raise ValueError(f"{name} must have the shape (n, {columns}), not {table.shape}")
+    if table.dtype.kind == "f" and not np.isfinite(table).all():
+        raise ValueError(f"{name} must be finite, and holds NaN or infinity")
+    return table
+
+
+def integers(table: NDArray[Any], unit: int, limit: int) -> NDArray[np.int64] | None:
+    """The numbers in 1 / unit pixels, to the nearest; None if one of them is beyond +-limit or of no C type."""
+    if table.dtype.kind == "O":
+        return None
+    if table.dtype.kind == "f":
+        table = np.floor(table * float(unit) + 0.5)
+        unit = 1
+    if len(table) and (table.max() > limit // unit or table.min() < -(limit // unit)):
+        return None
+    table = np.ascontiguousarray(table, np.int64)
+    return table if unit == 1 else table * unit
+
+
+@cython.cfunc
+def pointer_to_int64(array: object) -> cython.p_longlong:
+    """The numbers of a contiguous int64 array."""
+    if cython.compiled:
+        address: cython.size_t = array.__array_interface__["data"][0]
+        return cython.cast(cython.p_longlong, address)
+    return array.ravel().tolist()
+
+
+@cython.cfunc
+def pointer_to_bytes(array: object) -> cython.p_uchar:
+    """The bytes of a contiguous uint8 array."""
+    if cython.compiled:
+        address: cython.size_t = array.__array_interface__["data"][0]
+        return cython.cast(cython.p_uchar, address)
+    return array.tobytes()

@@ -1,0 +1,4 @@
+from paneldraw.framebuffer.lines cimport Lines
+
+cdef class Shapes(Lines):
+    pass
