@@ -1,0 +1,77 @@
+"""What all tests share: the package at both its speeds, and pictures to compare with."""
+
+from __future__ import annotations
+
+import importlib
+import shutil
+import sys
+from contextlib import contextmanager
+from pathlib import Path
+
+import pytest
+from golden import assert_golden
+from hypothesis import HealthCheck, settings
+
+import paneldraw
+
+# No deadline: a test never times. The fixtures here hold nothing that an example could change.
+settings.register_profile(
+    "paneldraw", deadline=None, max_examples=50, suppress_health_check=[HealthCheck.function_scoped_fixture]
+)
+settings.load_profile("paneldraw")
+
+
+def pytest_addoption(parser):
+    parser.addoption("--update-golden", action="store_true", help="rewrite the pictures under tests/golden")
+
+
+@pytest.fixture
+def golden(request, tmp_path):
+    """Compare a framebuffer with a picture under tests/golden: ``golden(fb, "name.png")``."""
+    update = request.config.getoption("--update-golden")
+    return lambda fb, name: assert_golden(fb, name, tmp_path, update)
+
+
+class Sources:
+    """The package as an install without a compiler has it: a copy of its .py files, with modules of its own."""
+
+    def __init__(self, folder):
+        original = Path(paneldraw.__file__).parent
+        for file in original.rglob("*.py"):
+            copy = folder / "paneldraw" / file.relative_to(original)
+            copy.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copyfile(file, copy)
+        self.folder = folder
+        self.modules = {}
+
+    @contextmanager
+    def in_place(self):
+        """Let ``import paneldraw`` find the copy, here and in what the copy imports."""
+        own = _take_out()
+        sys.modules.update(self.modules)
+        sys.path.insert(0, str(self.folder))
+        try:
+            yield importlib.import_module("paneldraw")
+        finally:
+            sys.path.remove(str(self.folder))
+            self.modules = _take_out()
+            sys.modules.update(own)
+
+
+def _take_out():
+    return {name: sys.modules.pop(name) for name in list(sys.modules) if name.partition(".")[0] == "paneldraw"}
+
+
+@pytest.fixture(scope="session")
+def sources(tmp_path_factory):
+    return Sources(tmp_path_factory.mktemp("sources"))
+
+
+@pytest.fixture(params=["compiled", "interpreted"])
+def package(request, sources):
+    """`paneldraw`, compiled and once more as plain Python: a test that draws with it holds for both."""
+    if request.param == "compiled":
+        yield paneldraw
+    else:
+        with sources.in_place() as interpreted:
+            yield interpreted
