@@ -22,6 +22,7 @@ MODULES = (
     "paneldraw.raster.supersample",
     "paneldraw.raster.lines",
     "paneldraw.raster.thick",
+    "paneldraw.raster.outlines",
     "paneldraw.raster.curves",
     "paneldraw.raster.masks",
     "paneldraw.framebuffer.arguments",

@@ -2,6 +2,7 @@ cdef class Surface:
     cdef unsigned char *pixels
     cdef readonly object memory
     cdef object scratch
+    cdef Surface mask
     cdef readonly Py_ssize_t origin, stride, width, height
     cdef readonly Py_ssize_t left, top, right, bottom
     cdef readonly int max_level
@@ -10,6 +11,7 @@ cdef class Surface:
     cdef int *row
 
     cdef object reserve(self)
+    cdef Surface single_row(self)
     cdef void dip(self, int level, int op) noexcept nogil
     cdef void point(self, Py_ssize_t x, Py_ssize_t y) noexcept nogil
     cdef void span(self, Py_ssize_t y, Py_ssize_t x1, Py_ssize_t x2) noexcept nogil

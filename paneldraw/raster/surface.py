@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import cython
+import numpy as np
 
 #: How a level meets the level that a pixel has; `Surface.dip` takes the number.
 OPS = {"over": 0, "xor": 1, "add": 2, "max": 3, "clear": 4}
@@ -29,6 +30,7 @@ class Surface:
         # memory: flat, contiguous uint8 array; pixel (x, y) is memory[origin + y * stride + x].
         self.memory = memory
         self.scratch = None
+        self.mask = None
         if cython.compiled:
             address: cython.size_t = memory.__array_interface__["data"][0]
             self.pixels = cython.cast(cython.p_uchar, address + origin)
@@ -56,6 +58,13 @@ class Surface:
             self.row = cython.cast(cython.p_int, cython.cast(cython.p_char, self.scratch))
         else:
             self.row = [0] * (self.width + 2)
+
+    @cython.cfunc
+    def single_row(self) -> Surface:
+        """A surface as wide as this one all of whose rows are the same row of memory, zero; made once."""
+        if self.mask is None:
+            self.mask = Surface(np.zeros(self.width, np.uint8), 0, 0, self.width, self.height, 1)
+        return self.mask
 
     def set_window(
         self, left: cython.Py_ssize_t, top: cython.Py_ssize_t, right: cython.Py_ssize_t, bottom: cython.Py_ssize_t

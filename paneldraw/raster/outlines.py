@@ -1,0 +1,70 @@
+# cython: language_level=3, boundscheck=False, wraparound=False, cdivision=True
+"""Aliased outlines made of several curves: where these meet or cross, a pixel is painted once all the same."""
+
+from __future__ import annotations
+
+import cython
+
+if cython.compiled:
+    from cython.cimports.paneldraw.raster.lines import bresenham
+    from cython.cimports.paneldraw.raster.surface import Surface
+else:
+    from paneldraw.raster.lines import bresenham
+    from paneldraw.raster.surface import Surface
+
+
+@cython.cclass
+class Outline:
+    """Curves that are painted as one shape; what they are is a subclass's `trace`."""
+
+    @cython.cfunc
+    @cython.nogil
+    @cython.exceptval(check=False)
+    def trace(self, surface: Surface) -> cython.void:
+        """Ink the curves on a surface, one after the other."""
+
+    @cython.cfunc
+    def paint(self, surface: Surface, top: cython.longlong, bottom: cython.longlong) -> object:
+        """Paint the outline, which has no pixels outside of the rows ``top <= y < bottom``.
+
+        Most operations may be repeated on a pixel. Where that would show, as with xor, the outline is first traced
+        row by row on a surface that is a single row, and what it holds is painted.
+        """
+        if surface.op != 1 and surface.op != 2:
+            self.trace(surface)
+            return
+        x: cython.Py_ssize_t
+        y: cython.Py_ssize_t
+        marks: cython.p_uchar
+        row: Surface = surface.single_row()
+        marks = row.pixels
+        row.dip(1, 0)
+        row.left = surface.left
+        row.right = surface.right
+        for y in range(max(top, surface.top), min(bottom, surface.bottom)):
+            row.top = y
+            row.bottom = y + 1
+            self.trace(row)
+            for x in range(surface.left, surface.right):
+                if marks[x]:
+                    marks[x] = 0
+                    surface.point(x, y)
+
+
+@cython.cclass
+class Polyline(Outline):
+    """Bresenham's lines from point to point; coordinates within +-2**29."""
+
+    @cython.cfunc
+    @cython.nogil
+    @cython.exceptval(check=False)
+    def trace(self, surface: Surface) -> cython.void:
+        i: cython.Py_ssize_t
+        points: cython.p_longlong = self.points
+        last: cython.Py_ssize_t = 2 * (self.count - 1)
+        if self.count == 1:
+            bresenham(surface, points[0], points[1], points[0], points[1])
+        for i in range(0, last, 2):
+            bresenham(surface, points[i], points[i + 1], points[i + 2], points[i + 3])
+        if self.closed:
+            bresenham(surface, points[last], points[last + 1], points[0], points[1])
