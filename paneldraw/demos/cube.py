@@ -13,6 +13,8 @@ Array = NDArray[np.float64]
 
 CORNERS = np.array([(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
 EDGES = [(a, b) for a in range(8) for b in range(a) if np.count_nonzero(CORNERS[a] != CORNERS[b]) == 1]
+FACES = np.array([np.where(CORNERS[a] == CORNERS[b], CORNERS[a], 0) for a, b in EDGES])
+"""For each edge, the two sides of the cube that it lies between: -1 or 1 along two of the three axes."""
 EYE = 6.0
 """The eye's distance from the middle; the cube's edges are 2 long."""
 PERIOD = 10.0
@@ -28,10 +30,10 @@ def draw(fb: Framebuffer, t: float) -> None:
     middle = np.array((fb.width - 1, fb.height - 1)) / 2
     points = middle + corners[:, :2] / (1 - corners[:, 2:] / EYE) * min(fb.width, fb.height) * 0.26
     antialias = Supersample(4) if fb.depth > 1 else None
-    for a, b in EDGES:
-        # An edge is seen if one of its two faces is: a face that both ends lie on, turned towards the eye.
-        faces = np.where(CORNERS[a] == CORNERS[b], CORNERS[a], 0)
-        if (faces * axes[:, 2] * EYE > 1).any():
+    # An edge is seen if one of its two faces is turned towards the eye.
+    seen: Array = (FACES * axes[:, 2] * EYE > 1).any(axis=1)
+    for (a, b), in_sight in zip(EDGES, seen.tolist(), strict=True):
+        if in_sight:
             fb.line(*points[a], *points[b], antialias=antialias)
         else:
             fb.points(_dots(points[a], points[b]))
