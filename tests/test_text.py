@@ -30,7 +30,9 @@ def sheet():
     return "\n".join(characters[start : start + 16] for start in range(0, len(characters), 16))
 
 
-def test_the_font_is_as_it_was_drawn():
+def test_the_font_is_as_it_was_drawn(request):
+    if request.config.getoption("--update-golden"):
+        GOLDEN.write_text(picture(render(sheet())[0]) + "\n", encoding="ascii")
     assert picture(render(sheet())[0]) + "\n" == GOLDEN.read_text(encoding="ascii")
 
 

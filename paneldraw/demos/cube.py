@@ -31,7 +31,7 @@ def draw(fb: Framebuffer, t: float) -> None:
     points = middle + corners[:, :2] / (1 - corners[:, 2:] / EYE) * min(fb.width, fb.height) * 0.26
     antialias = Supersample(4) if fb.depth > 1 else None
     # An edge is seen if one of its two faces is turned towards the eye.
-    seen: Array = (FACES * axes[:, 2] * EYE > 1).any(axis=1)
+    seen = np.any(FACES * axes[:, 2] * EYE > 1, axis=1)
     for (a, b), in_sight in zip(EDGES, seen.tolist(), strict=True):
         if in_sight:
             fb.line(*points[a], *points[b], antialias=antialias)
