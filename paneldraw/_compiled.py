@@ -29,6 +29,7 @@ MODULES = (
     "paneldraw.framebuffer.lines",
     "paneldraw.framebuffer.shapes",
     "paneldraw.framebuffer.framebuffer",
+    "paneldraw.controllers.packing",
 )
 
 

@@ -8,7 +8,15 @@ class PanelError(Exception):
 
 
 class TransportError(PanelError, OSError):
-    """The bus, the port or the panel at its far end failed; ``errno`` says how where the system said so."""
+    """The bus, the port or the panel at its far end failed; ``errno`` says how where the system said so.
+
+    Attributes
+    ----------
+    transient : bool
+        Whether the same write may well succeed a moment later (a busy bus, lost arbitration, a timeout).
+    """
+
+    transient: bool = False
 
 
 class PanelNotFoundError(TransportError):
@@ -17,6 +25,10 @@ class PanelNotFoundError(TransportError):
 
 class PanelPermissionError(TransportError):
     """The bus or port exists and this user may not open it."""
+
+
+class PanelBusyError(TransportError):
+    """Somebody else holds the bus or the port."""
 
 
 class PanelTimeoutError(TransportError):

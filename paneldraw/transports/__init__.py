@@ -1,1 +1,8 @@
 """What carries command and data bytes to a panel."""
+
+from __future__ import annotations
+
+from paneldraw.transports.base import COMMAND, DATA, Cost, Plan, Transport
+from paneldraw.transports.i2c import I2CTransport
+
+__all__ = ["COMMAND", "DATA", "Cost", "I2CTransport", "Plan", "Transport"]

@@ -1,0 +1,503 @@
+"""The panel as a script holds it: pictures in, bytes on the wire out."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import sys
+import threading
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import Any, Final, Literal, NamedTuple, TypeVar
+from urllib.parse import SplitResult, parse_qsl, urlsplit
+
+import numpy as np
+import numpy.typing as npt
+
+from paneldraw import pictures
+from paneldraw.controllers import CHIPS, Controller
+from paneldraw.controllers.packing import pack_pages
+from paneldraw.errors import PanelError, TransportError
+from paneldraw.framebuffer import Framebuffer
+from paneldraw.transports import I2CTransport, Transport
+from paneldraw.update import Planner
+
+Levels = npt.NDArray[np.uint8]
+T = TypeVar("T")
+OnClose = Literal["keep", "clear", "off"]
+
+_ON_CLOSE: Final = ("keep", "clear", "off")
+_ROTATIONS: Final = (0, 90, 180, 270)
+_RETRIES: Final = 2
+_PAUSE: Final = 0.002
+
+
+class Report(NamedTuple):
+    """What one `Panel.show` did."""
+
+    wire_bytes: int
+    """Bytes on the wire, addresses and control bytes included."""
+    messages: int
+    changed_bytes: int
+    """Bytes of panel RAM that differ from the picture before."""
+    seconds: float
+
+    @property
+    def unchanged(self) -> bool:
+        """Whether the panel already showed this picture, so that nothing was sent."""
+        return self.messages == 0
+
+
+@dataclass(slots=True)
+class Stats:
+    """Sums over all `Report`s of a panel, and what went wrong on the way."""
+
+    frames: int = 0
+    unchanged: int = 0
+    wire_bytes: int = 0
+    messages: int = 0
+    changed_bytes: int = 0
+    seconds: float = 0.0
+    retries: int = 0
+    """Transient faults after which the whole picture was sent again."""
+
+    def add(self, report: Report) -> None:
+        """Count one more show."""
+        self.frames += 1
+        self.unchanged += report.messages == 0
+        self.wire_bytes += report.wire_bytes
+        self.messages += report.messages
+        self.changed_bytes += report.changed_bytes
+        self.seconds += report.seconds
+
+
+class Panel:
+    """A display: a controller chip behind a transport.
+
+    The chip is initialized here, dark; the first `show` or `wake` lights it, so that no old RAM content flashes up.
+    Threads may share a panel: each call is whole before the next begins.
+
+    Parameters
+    ----------
+    controller : Controller
+        What the chip and its glass are, such as ``SSD1306(128, 64)``.
+    transport : Transport
+        What carries the bytes, such as ``I2CTransport(bus=1)``. The panel closes it.
+    rotate : int, optional
+        Degrees by which the picture is turned clockwise: 0 (default), 90, 180 or 270.
+    on_close : str, optional
+        What `close` leaves behind: ``"keep"`` the picture (default), ``"clear"`` a black one, or a panel that is
+        ``"off"``.
+
+    Raises
+    ------
+    ValueError
+        An unknown `rotate` or `on_close`.
+    TransportError
+        The panel cannot be reached; the message says what to do.
+
+    Examples
+    --------
+    >>> from paneldraw import Panel, simulator
+    >>> from paneldraw.controllers import SSD1306
+    >>> from paneldraw.transports import I2CTransport
+    >>> bus = simulator.I2CBus({0x3C: simulator.SSD1306(128, 64)})
+    >>> with Panel(SSD1306(128, 64), I2CTransport(bus)) as panel:
+    ...     with panel.frame() as fb:
+    ...         fb.line(0, 0, 127, 63)
+    """
+
+    def __init__(
+        self, controller: Controller, transport: Transport, *, rotate: int = 0, on_close: OnClose = "keep"
+    ) -> None:
+        if on_close not in _ON_CLOSE:
+            raise ValueError(f"on_close must be one of {', '.join(map(repr, _ON_CLOSE))}, not {on_close!r}")
+        self.controller = controller
+        self.transport = transport
+        self.stats = Stats()
+        self.on_close: OnClose = on_close
+        self._lock = threading.RLock()
+        self._closed = False
+        self._planner = Planner(controller, transport.cost)
+        self._contrast: int | None = None
+        self._inverted = False
+        self._asleep = False
+        self._ready = False  # the chip took its init, and nothing failed since
+        self._lit = False
+        self._shown = False
+        self._own: Framebuffer | None = None
+        self.rotate = rotate
+        with self._lock:
+            self._retrying(self._start)
+
+    @property
+    def rotate(self) -> int:
+        """Degrees by which the picture is turned clockwise. A change takes effect with the next `show`."""
+        return self._rotate
+
+    @rotate.setter
+    def rotate(self, degrees: int) -> None:
+        if degrees not in _ROTATIONS:
+            raise ValueError(f"rotate must be one of 0, 90, 180, 270, not {degrees!r}")
+        with self._lock:
+            self._rotate = degrees
+            size = self.controller.width, self.controller.height
+            self._size = size if degrees % 180 == 0 else size[::-1]
+
+    @property
+    def width(self) -> int:
+        """Width of a picture in pixels, as `rotate` has it."""
+        return self._size[0]
+
+    @property
+    def height(self) -> int:
+        """Height of a picture in pixels, as `rotate` has it."""
+        return self._size[1]
+
+    @property
+    def depth(self) -> int:
+        """Bits a pixel."""
+        return self.controller.depth
+
+    def framebuffer(self) -> Framebuffer:
+        """Make a blank framebuffer of this panel's size and depth."""
+        return Framebuffer(self.width, self.height, self.depth)
+
+    @contextlib.contextmanager
+    def frame(self, *, clear: bool = True) -> Iterator[Framebuffer]:
+        """Draw a picture and show it on leaving; nothing is shown if the block raises.
+
+        Parameters
+        ----------
+        clear : bool, optional
+            Start blank (default) or, if False, from the last frame's picture.
+
+        Yields
+        ------
+        Framebuffer
+        """
+        picture = self.framebuffer()
+        if not clear:
+            with self._lock:
+                picture.pixels[:] = self._own_picture().pixels
+        yield picture
+        with self._lock:
+            self._own = picture
+            self.show(picture)
+
+    def show(self, source: Any = None, *, force: bool = False) -> Report:
+        """Bring a picture onto the panel by sending what differs from the last one.
+
+        Parameters
+        ----------
+        source : Framebuffer, numpy array or Pillow image, optional
+            A picture of the panel's width and height. An array is (height, width), bool or integer levels from 0 to
+            the panel's highest. What is deeper than the panel is reduced to its nearest levels. Default: the picture
+            of the last `frame`.
+        force : bool, optional
+            Send everything, changed or not. Default: False.
+
+        Returns
+        -------
+        Report
+
+        Raises
+        ------
+        TypeError, ValueError
+            `source` is no picture, or not of this size or depth.
+        TransportError
+            The panel could not be reached. The next show sends everything.
+        """
+        with self._lock:
+            started = time.perf_counter()
+            self._check_open()
+            pixels, max_level = self._levels(source)
+            pack_pages(self._upright(pixels), max_level >> 1, self._planner.fresh)
+            if force:
+                self._planner.forget()
+            report = Report(*self._retrying(self._send), time.perf_counter() - started)
+            self.stats.add(report)
+            return report
+
+    def contrast(self, level: int) -> None:
+        """Set the brightness of lit pixels, 0 to 255."""
+        if not 0 <= level <= 255:
+            raise ValueError(f"level must be 0 to 255, not {level!r}")
+        with self._lock:
+            self._contrast = int(level)
+            self._change(self._contrast_command())
+
+    def invert(self, inverted: bool = True) -> None:
+        """Show lit pixels dark and dark ones lit, or with False as they are."""
+        with self._lock:
+            self._inverted = bool(inverted)
+            self._change(self.controller.inverse if inverted else self.controller.normal)
+
+    def sleep(self) -> None:
+        """Turn the panel dark. It keeps its picture, takes new ones, and needs next to no power."""
+        with self._lock:
+            self._asleep, self._lit = True, False
+            self._change(self.controller.power_off)
+
+    def wake(self) -> None:
+        """Light the panel again."""
+        with self._lock:
+            self._asleep = False
+            self._change(self.controller.power_on)
+            self._lit = True
+
+    def invalidate(self) -> None:
+        """Say that the panel's state is unknown, after a power cut for instance: the next show starts it anew."""
+        with self._lock:
+            self._ready = False
+
+    def close(self) -> None:
+        """Leave the panel as `on_close` says and close the transport. Closing twice does nothing."""
+        with self._lock:
+            if self._closed:
+                return
+            self._closed = True
+            try:
+                self._leave()
+            finally:
+                self.transport.close()
+
+    def __enter__(self) -> Panel:
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: object) -> None:
+        if error is None:
+            self.close()
+        else:
+            with contextlib.suppress(PanelError):  # what went wrong first is what the script must hear of
+                self.close()
+
+    def __repr__(self) -> str:
+        state = "closed" if self._closed else f"rotate={self._rotate}"
+        return f"<Panel {self.controller.name} {self.width}x{self.height}, {state}>"
+
+    def _check_open(self) -> None:
+        if self._closed:
+            raise PanelError("this panel is closed: open a new one")
+
+    def _own_picture(self) -> Framebuffer:
+        if self._own is None or (self._own.width, self._own.height) != self._size:
+            self._own = self.framebuffer()
+        return self._own
+
+    def _levels(self, source: Any) -> tuple[Levels, int]:
+        if source is None:
+            source = self._own_picture()
+        if isinstance(source, Framebuffer):
+            pixels, max_level = source.pixels, source.max_level
+        elif isinstance(source, np.ndarray):
+            pixels, max_level = _array(source, self.depth)
+        elif (pillow := sys.modules.get("PIL.Image")) is not None and isinstance(source, pillow.Image):
+            pixels, max_level = pictures.to_gray(source)[0], 255
+        else:
+            raise TypeError(f"source must be a Framebuffer, numpy array or Pillow image, not {type(source).__name__}")
+        if pixels.shape != (self._size[1], self._size[0]):
+            size = " x ".join(map(str, pixels.shape[::-1]))
+            raise ValueError(f"source must be {self.width} x {self.height} pixels like the panel, not {size}")
+        return pixels, max_level
+
+    def _upright(self, pixels: Levels) -> Levels:
+        """The picture as the unturned glass has it: a view."""
+        if self._rotate == 0:
+            return pixels
+        if self._rotate == 180:
+            return pixels[::-1, ::-1]
+        return pixels[::-1].T if self._rotate == 90 else pixels[:, ::-1].T
+
+    def _retrying(self, operation: Callable[[], T]) -> T:
+        """Try again after a transient fault; each operation restores a chip of which it cannot be sure."""
+        for attempt in range(_RETRIES):
+            try:
+                return operation()
+            except TransportError as error:
+                if not error.transient:
+                    raise
+                self.stats.retries += 1
+                time.sleep(_PAUSE * 2**attempt)
+        return operation()
+
+    def _start(self) -> int:
+        """Bring the chip from any state to a dark, configured one; return bytes on the wire."""
+        chip = self.controller
+        settings = chip.inverse if self._inverted else b""
+        if self._contrast is not None:
+            settings += self._contrast_command()
+        self._lit = False
+        wire = self._command(chip.resync + chip.init + settings)
+        self._planner.restart()
+        return wire
+
+    def _send(self) -> tuple[int, int, int]:
+        """Send the planner's fresh frame; return bytes on the wire, messages, changed bytes."""
+        wire = messages = 0
+        if not self._ready:
+            wire, messages = self._start(), 1
+        plan = self._planner.plan()
+        if plan.count:
+            self._ready = False
+            wire += self.transport.batch(plan)
+            self._ready = True
+            self._planner.sent()
+            self._shown = True
+        if not (self._lit or self._asleep):
+            wire += self._command(self.controller.power_on)
+            messages += 1
+            self._lit = True
+        return wire, messages + plan.count, plan.changed
+
+    def _command(self, payload: bytes) -> int:
+        self._ready = False
+        wire = self.transport.command(payload)
+        self._ready = True
+        return wire
+
+    def _change(self, payload: bytes) -> None:
+        """Send a setting, after the picture where the panel may have lost it."""
+        self._check_open()
+
+        def attempt() -> None:
+            if not self._ready:
+                self._restore()
+            self._command(payload)
+
+        self._retrying(attempt)
+
+    def _restore(self) -> None:
+        if self._shown:
+            self._send()
+        else:
+            self._start()
+
+    def _contrast_command(self) -> bytes:
+        level = round((self._contrast or 0) * self.controller.contrast_max / 255)
+        return self.controller.contrast + bytes((level,))
+
+    def _leave(self) -> None:
+        if self.on_close == "clear":
+            self._planner.fresh[:] = 0
+            self._retrying(self._send)
+        elif self.on_close == "off":
+            self._retrying(self._darken)
+
+    def _darken(self) -> None:
+        if self._ready:
+            self._command(self.controller.power_off)
+        else:
+            self._start()
+
+
+def _array(source: npt.NDArray[Any], depth: int) -> tuple[Levels, int]:
+    max_level = 2**depth - 1
+    if source.dtype == np.bool_:
+        return source.view(np.uint8), 1
+    if source.dtype.kind not in "ui":
+        raise TypeError(f"source must be an array of bool or of integer levels, not {source.dtype}")
+    if source.size and (source.max() > max_level or source.min() < 0):
+        raise ValueError(
+            f"source must hold levels from 0 to {max_level}; greys to 255 go through Pillow or Framebuffer.image"
+        )
+    return source.astype(np.uint8, copy=False), max_level
+
+
+def open_panel(url: str | None = None) -> Panel:
+    """Open the panel that a URL names.
+
+    Parameters
+    ----------
+    url : str, optional
+        ``i2c://1/0x3c?chip=ssd1306&size=128x64&rotate=180`` is a panel on bus 1 (or ``i2c:///dev/i2c-1/0x3c``);
+        ``sim://ssd1306?size=128x64`` a simulated one, whose chip is ``panel.transport.bus.devices[0x3C]``. Parameters
+        are ``chip`` (of i2c), ``size``, ``rotate`` and ``on_close``. Default: what the environment variable
+        PANELDRAW_PANEL says, else ``sim://ssd1306``.
+
+    Raises
+    ------
+    ValueError
+        A scheme, chip, address or parameter that does not exist.
+    PanelNotFoundError, PanelPermissionError
+        The bus cannot be opened, or nobody answers at the address.
+
+    Examples
+    --------
+    >>> with open_panel("sim://ssd1306?size=128x32") as panel:
+    ...     panel
+    <Panel ssd1306 128x32, rotate=0>
+    """
+    if url is None:
+        url = os.environ.get("PANELDRAW_PANEL") or "sim://ssd1306"
+    if not isinstance(url, str):
+        raise TypeError(f"url must be a str, not {type(url).__name__}")
+    parts = urlsplit(url)
+    opener = _OPENERS.get(parts.scheme)
+    if opener is None:
+        known = " or ".join(f"{scheme}://" for scheme in _OPENERS)
+        raise ValueError(f"url must begin with {known}, not {url!r}")
+    return opener(parts)
+
+
+def _open_i2c(parts: SplitResult) -> Panel:
+    if parts.netloc:
+        place, address = parts.netloc, parts.path.strip("/")
+    else:
+        place, _, address = parts.path.rpartition("/")
+    bus = int(place) if place.isdecimal() else place or "1"
+    query = _query(parts, "chip", "size", "rotate", "on_close")
+    controller = _controller(query.get("chip", "ssd1306"), query.get("size"))
+    return _panel(controller, I2CTransport(bus, _number(address or "0x3c", "address")), query)
+
+
+def _open_sim(parts: SplitResult) -> Panel:
+    from paneldraw import simulator  # a script with a real panel does not pay for it
+
+    query = _query(parts, "size", "rotate", "on_close")
+    controller = _controller(parts.netloc or "ssd1306", query.get("size"))
+    chip = getattr(simulator, controller.name.upper())(controller.width, controller.height)
+    return _panel(controller, I2CTransport(simulator.I2CBus({0x3C: chip})), query)
+
+
+_OPENERS: Final = {"i2c": _open_i2c, "sim": _open_sim}
+
+
+def _panel(controller: Controller, transport: Transport, query: dict[str, str]) -> Panel:
+    try:
+        rotate = _number(query.get("rotate", "0"), "rotate")
+        return Panel(controller, transport, rotate=rotate, on_close=query.get("on_close", "keep"))  # type: ignore[arg-type]
+    except BaseException:
+        transport.close()
+        raise
+
+
+def _query(parts: SplitResult, *known: str) -> dict[str, str]:
+    pairs = parse_qsl(parts.query, keep_blank_values=True)
+    for name, _ in pairs:
+        if name not in known:
+            raise ValueError(f"url must have no parameters but {', '.join(known)}, not {name!r}")
+    query = dict(pairs)
+    if len(query) < len(pairs):
+        raise ValueError(f"url must have each parameter once, not {parts.query!r}")
+    return query
+
+
+def _controller(chip: str, size: str | None) -> Controller:
+    make = CHIPS.get(chip.lower())
+    if make is None:
+        raise ValueError(f"chip must be one of {', '.join(CHIPS)}, not {chip!r}")
+    if size is None:
+        return make()
+    width, _, height = size.partition("x")
+    if not (width.isdecimal() and height.isdecimal()):
+        raise ValueError(f"size must be like 128x64, not {size!r}")
+    return make(int(width), int(height))
+
+
+def _number(text: str, name: str) -> int:
+    try:
+        return int(text, 0)
+    except ValueError:
+        raise ValueError(f"{name} must be a whole number, such as 60 or 0x3c, not {text!r}") from None

@@ -1,0 +1,84 @@
+"""What a panel knows of a transport, and what a plan is."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Final, NamedTuple, Protocol
+
+import numpy as np
+import numpy.typing as npt
+
+COMMAND: Final = 0x00
+DATA: Final = 0x40
+CHAINED: Final = 0x80
+"""Kinds of message, as the I2C wire spells them. A chained one holds its own further control bytes."""
+
+
+class Cost(NamedTuple):
+    """Bytes on the wire that a message costs beyond its payload."""
+
+    command: int
+    data: int
+    chained: int | None = None
+    """The same of a chained message; None where the transport has none."""
+
+
+class Plan:
+    """The messages of one update, in one buffer that is used again for the next.
+
+    Message ``i`` is ``buffer[starts[i]:stops[i]]``: its kind (`COMMAND`, `DATA` or `CHAINED`), then its payload. The
+    kind's place belongs to the transport, which may send it as it stands or put a byte of its own there.
+
+    Attributes
+    ----------
+    buffer : (capacity,) uint8 array
+    address : int
+        Where the buffer stands in memory.
+    starts, stops : (limit,) intp arrays
+    count : int
+        How many messages there are.
+    cost : int
+        Bytes on the wire by the transport's `Cost`.
+    changed : int
+        Bytes of panel RAM that change.
+    """
+
+    __slots__ = ("address", "buffer", "changed", "cost", "count", "starts", "stops")
+
+    def __init__(self, capacity: int, limit: int) -> None:
+        self.buffer: npt.NDArray[np.uint8] = np.zeros(capacity, np.uint8)
+        self.address: int = self.buffer.ctypes.data
+        self.starts: npt.NDArray[np.intp] = np.zeros(limit, np.intp)
+        self.stops: npt.NDArray[np.intp] = np.zeros(limit, np.intp)
+        self.count = 0
+        self.cost = 0
+        self.changed = 0
+
+    def __len__(self) -> int:
+        return self.count
+
+    def __iter__(self) -> Iterator[tuple[int, memoryview]]:
+        """Yield each message's kind and payload."""
+        view = memoryview(self.buffer)
+        for start, stop in zip(self.starts[: self.count].tolist(), self.stops[: self.count].tolist(), strict=True):
+            yield view[start], view[start + 1 : stop]
+
+
+class Transport(Protocol):
+    """What carries bytes to a panel. A write returns the bytes that it put on the wire, or raises `TransportError`."""
+
+    @property
+    def cost(self) -> Cost:
+        """What a message costs here."""
+
+    def command(self, payload: bytes) -> int:
+        """Send one command message."""
+
+    def data(self, payload: bytes) -> int:
+        """Send one data message."""
+
+    def batch(self, plan: Plan) -> int:
+        """Send all messages of a plan in order."""
+
+    def close(self) -> None:
+        """Release what the transport opened itself. Closing twice does nothing."""
