@@ -15,11 +15,10 @@ from urllib.parse import SplitResult, parse_qsl, urlsplit
 import numpy as np
 import numpy.typing as npt
 
-from paneldraw import pictures
 from paneldraw.controllers import CHIPS, Controller
 from paneldraw.controllers.packing import pack_pages
 from paneldraw.errors import PanelError, TransportError
-from paneldraw.framebuffer import Framebuffer
+from paneldraw.framebuffer import Framebuffer, pictures
 from paneldraw.transports import I2CTransport, Transport
 from paneldraw.update import Planner
 
