@@ -52,6 +52,14 @@ class SSD1306:
     ValueError
         For a size, offset or COM setting that the chip cannot have.
 
+    Notes
+    -----
+    A command that the datasheet forbids is recorded and then acts as far as its bits reach; an unknown one is ignored.
+    Hardware scrolling is state only: its commands are checked and kept, the picture stands still. Where the datasheet
+    is silent: page mode runs through all 128 columns, whatever window was set; a pointer past the end of its window
+    counts on to the end of the RAM; data in the middle of a command reaches the RAM and the command waits on; A5 lights
+    an inverted display too; the status bits other than bit 6 are 0.
+
     Examples
     --------
     >>> chip = SSD1306(128, 32)

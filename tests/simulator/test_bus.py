@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import errno
 import threading
+import time
 from collections.abc import Callable
 from typing import Any
 
@@ -281,7 +282,12 @@ def test_two_chips_share_a_bus_and_each_is_told_its_own_bytes() -> None:
 
 
 def test_calls_from_many_threads_stay_whole() -> None:
-    device = Recorder()
+    class Slow(Recorder):
+        def write(self, payload: bytes) -> None:
+            time.sleep(0)
+            super().write(payload)
+
+    device = Slow()
     bus = simulator.I2CBus({0x3C: device})
 
     def send(name: int) -> None:

@@ -88,6 +88,21 @@ def test_for_ever_until_cleared() -> None:
     bus.write_quick(0x3C)
 
 
+def test_two_faults_count_the_same_messages_and_the_one_asked_for_first_goes_first() -> None:
+    _, bus = bench()
+    bus.fail(errno.ETIMEDOUT, after=1)
+    bus.fail(errno.EBUSY, after=1)
+    bus.fail(errno.EIO, after=4)
+    outcomes = []
+    for _ in range(7):
+        try:
+            bus.write_quick(0x3C)
+            outcomes.append(0)
+        except OSError as error:
+            outcomes.append(error.errno or -1)
+    assert outcomes == [0, errno.ETIMEDOUT, errno.EBUSY, 0, errno.EIO, 0, 0]
+
+
 def test_only_one_address() -> None:
     first, second = simulator.SSD1306(), simulator.SSD1306()
     bus = simulator.I2CBus({0x3C: first, 0x3D: second})

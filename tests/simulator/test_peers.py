@@ -32,6 +32,7 @@ def as_image(picture: np.ndarray[Any, Any]) -> Image.Image:
 # luma.oled
 
 
+@pytest.mark.filterwarnings("ignore:Image.Image.getdata is deprecated")
 @pytest.mark.parametrize("managed", [False, True], ids=["bus given", "bus opened by luma"])
 @pytest.mark.parametrize(("width", "height"), LUMA_SIZES)
 def test_luma(width: int, height: int, managed: bool, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -220,7 +221,7 @@ def test_u8g2_upright_and_flipped(width: int, height: int) -> None:
     assert np.array_equal(chip.pixels, picture[::-1, ::-1])
 
 
-# An ASCII driver in the style of small microcontroller code: page mode, every byte behind a control byte of its own
+# In the style of small microcontroller code: page mode, every byte behind a control byte of its own
 
 
 def test_a_driver_that_chains_control_bytes() -> None:

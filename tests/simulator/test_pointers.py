@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from .helpers import commands, started
@@ -72,7 +72,8 @@ steps = st.one_of(
 )
 
 
-@given(st.lists(steps, max_size=25))
+@settings(max_examples=200)
+@given(st.lists(steps, min_size=5, max_size=25))
 def test_every_byte_lands_where_the_datasheet_says(sequence: list[bytes | tuple[str, int, int]]) -> None:
     chip, model = started(mode=2), Model()
     model.mirrored = True
@@ -118,6 +119,12 @@ def test_horizontal_mode_goes_through_the_window_row_by_row_and_starts_again() -
 def test_vertical_mode_goes_through_the_window_column_by_column() -> None:
     assert landed("20 01 21 05 06 22 02 03", 4) == [(2, 5), (3, 5), (2, 6), (3, 6)]
     assert landed("20 01 21 05 06 22 02 03", 5) == [(3, 5), (2, 6), (3, 6), (2, 5)]
+
+
+def test_a_pointer_past_its_window_counts_on_to_the_end_of_the_ram() -> None:
+    assert landed("20 00 21 7D 05 22 02 03", 5) == [(2, 125), (2, 126), (2, 127), (2, 0), (2, 1)]
+    assert landed("20 00 21 03 05 22 02 03 20 02 0C 17 20 00", 6)[3:] == [(2, 127), (2, 0), (2, 1)]
+    assert landed("20 01 21 03 05 22 06 01", 5) == [(6, 3), (7, 3), (0, 3), (1, 3), (6, 4)]
 
 
 def test_setting_one_side_of_the_window_leaves_the_other_pointer_alone() -> None:

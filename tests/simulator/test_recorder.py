@@ -127,9 +127,12 @@ def test_a_contact_sheet_has_all_frames_in_reading_order(tmp_path: Path) -> None
 def test_a_long_contact_sheet_takes_frames_at_equal_distances() -> None:
     shown = frames(*np.arange(500) / 10)
     done: list[tuple[int, int]] = []
-    sheet = simulator.contact_sheet(shown, scale=1, look=LOOK, progress=lambda n, of: done.append((n, of)))
+    sheet = simulator.contact_sheet(shown, columns=1, scale=1, look=LOOK, progress=lambda n, of: done.append((n, of)))
     assert done[-1] == (48, 48)
-    assert np.array_equal(levels(sheet.crop((8, 8, 26, 18)), 1, LOOK), shown[0].pixels)
+    for index, taken in ((0, 0), (1, 11), (46, 488), (47, 499)):
+        y = 8 + 30 * index
+        assert np.array_equal(levels(sheet.crop((8, y, 26, y + 10)), 1, LOOK), shown[taken].pixels)
+    sheet = simulator.contact_sheet(shown, scale=1)
     assert 0.5 < sheet.width / sheet.height < 2
 
 

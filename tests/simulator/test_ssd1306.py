@@ -165,7 +165,8 @@ def test_what_the_datasheet_forbids_is_recorded(sent: str, violation: str) -> No
 
 
 @pytest.mark.parametrize(
-    "sent", ["8D 54", "8D 94", "DB 00", "DB 30", "A8 0F", "DA 22", "DA 32", "E3", "D5 F0", "20 01"]
+    "sent",
+    ["8D 54", "8D 94", "DB 00", "DB 30", "A8 0F", "DA 22", "DA 32", "E3", "D5 F0", "20 01", "26 00 03 07 03 00 FF"],
 )
 def test_what_the_datasheet_allows_is_not(sent: str) -> None:
     chip = simulator.SSD1306()

@@ -137,7 +137,7 @@ def test_a_smaller_picture_leaves_nothing_of_a_larger_one(sized: Sized) -> None:
 
 @pytest.mark.parametrize(
     ("columns", "rows", "encoding", "mark"),
-    [(130, 36, "utf-8", "█"), (129, 50, "utf-8", "⣿"), (140, 30, "utf-8", "⣿"), (140, 50, "ascii", ":")],
+    [(130, 36, "utf-8", "█"), (129, 50, "utf-8", "⣿"), (140, 35, "utf-8", "⣿"), (140, 50, "ascii", ":")],
 )
 def test_the_style_suits_the_terminal(sized: Sized, columns: int, rows: int, encoding: str, mark: str) -> None:
     terminal = sized(columns, rows, encoding)
