@@ -1,3 +1,5 @@
+from paneldraw.raster.supersample cimport Supersample
+
 cdef long long NEAR
 cdef long long FAR
 

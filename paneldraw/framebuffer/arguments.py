@@ -5,19 +5,27 @@ from __future__ import annotations
 
 import math
 import operator
-from typing import Any
+from typing import TYPE_CHECKING, Any, SupportsFloat, SupportsIndex, TypeAlias
 
 import cython
 import numpy as np
+from cython.cimports.cpython.long import PyLong_AsLongLongAndOverflow
 from numpy.typing import NDArray
 
 from paneldraw.raster.surface import OPS
 
-if cython.compiled:
-    from cython.cimports.cpython.long import PyLong_AsLongLongAndOverflow
-    from cython.cimports.paneldraw.raster.supersample import Supersample
-else:
+if not cython.compiled:
     from paneldraw.raster.supersample import Supersample
+
+if TYPE_CHECKING:
+    from types import EllipsisType
+
+    # Cython would take a plain `float` or `int` in a signature for a type of its own.
+    Real: TypeAlias = SupportsFloat | SupportsIndex
+    Int: TypeAlias = int
+    Level: TypeAlias = SupportsIndex | None
+    Antialias: TypeAlias = Supersample | None
+    AntialiasOrDefault: TypeAlias = Antialias | EllipsisType
 
 LARGEST = 65536
 
@@ -30,7 +38,7 @@ _ALIASED = Supersample(1)
 
 @cython.cfunc
 @cython.exceptval(check=False)
-def quick(value: object) -> cython.longlong:
+def quick(value: Any) -> cython.longlong:
     """`value`, if it is an int within +-NEAR, else FAR."""
     if type(value) is not int:
         return FAR
@@ -146,7 +154,7 @@ def integers(table: NDArray[Any], unit: int, limit: int) -> NDArray[np.int64] | 
 
 
 @cython.cfunc
-def pointer_to_int64(array: object) -> cython.p_longlong:
+def pointer_to_int64(array: Any) -> cython.p_longlong:
     """The numbers of a contiguous int64 array."""
     if cython.compiled:
         address: cython.size_t = array.__array_interface__["data"][0]
@@ -155,7 +163,7 @@ def pointer_to_int64(array: object) -> cython.p_longlong:
 
 
 @cython.cfunc
-def pointer_to_bytes(array: object) -> cython.p_uchar:
+def pointer_to_bytes(array: Any) -> cython.p_uchar:
     """The bytes of a contiguous uint8 array."""
     if cython.compiled:
         address: cython.size_t = array.__array_interface__["data"][0]

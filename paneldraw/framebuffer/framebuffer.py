@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, SupportsIndex
 
 import cython
 import numpy as np
@@ -13,7 +13,6 @@ from paneldraw.framebuffer.arguments import LARGEST, as_samples, size, whole
 
 if cython.compiled:
     from cython.cimports.paneldraw.framebuffer.arguments import NEAR, pointer_to_bytes
-    from cython.cimports.paneldraw.framebuffer.shapes import Shapes
     from cython.cimports.paneldraw.raster.masks import stamp
     from cython.cimports.paneldraw.raster.surface import Surface
 else:
@@ -28,13 +27,9 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
     from PIL import Image
 
+    from paneldraw.framebuffer.arguments import Antialias, Int, Level, Real
     from paneldraw.framebuffer.pictures import Dither
-    from paneldraw.raster.supersample import Supersample
     from paneldraw.text import Font
-
-# Aliases, because Cython would take a plain `float` or `int` for a type of its own.
-Real = "float | int"
-Level = "int | None"
 
 _DEPTHS = (1, 2, 4, 8)
 
@@ -91,7 +86,12 @@ class Framebuffer(Shapes):
     ##.......
     """
 
-    def __init__(self, width: Any, height: Any, depth: Any = 1, *, antialias: Any = None) -> None:
+    pixels: NDArray[np.uint8]
+    depth: Int
+
+    def __init__(
+        self, width: SupportsIndex, height: SupportsIndex, depth: Int = 1, *, antialias: Antialias = None
+    ) -> None:
         width, height = size("width", width), size("height", height)
         for name, side in (("width", width), ("height", height)):
             if not 1 <= side <= LARGEST:
@@ -117,11 +117,11 @@ class Framebuffer(Shapes):
         return self.surface.max_level
 
     @property
-    def antialias(self) -> Supersample | None:
+    def antialias(self) -> Antialias:
         return self._antialias
 
     @antialias.setter
-    def antialias(self, value: Supersample | None) -> None:
+    def antialias(self, value: Antialias) -> None:
         as_samples(value)
         self._antialias = value
 

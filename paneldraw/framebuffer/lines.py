@@ -35,9 +35,8 @@ else:
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
-# Aliases, because Cython would take a plain `float` or `int` for a type of its own.
-Real = "float | int"
-Level = "int | None"
+    from paneldraw.framebuffer.arguments import AntialiasOrDefault, Level, Real
+    from paneldraw.raster.surface import Surface
 
 _NEAR_256THS = cython.declare(cython.longlong, 1 << 26)
 _WIDE_256THS = cython.declare(cython.longlong, 1 << 20)
@@ -47,9 +46,12 @@ _WIDE_256THS = cython.declare(cython.longlong, 1 << 20)
 class Lines:
     """A surface to draw on, and the calls that draw points and lines on it."""
 
+    surface: Surface
+    _antialias: Any
+
     @cython.cfunc
     @cython.inline
-    def _dip(self, c: object, op: object) -> object:
+    def _dip(self, c: Any, op: Any) -> Any:
         """Fill the ink for level `c` and operation `op`."""
         code: cython.int = 0 if op == "over" else operation(op)
         if c is None:
@@ -60,7 +62,7 @@ class Lines:
     @cython.cfunc
     @cython.inline
     @cython.exceptval(-1)
-    def _level(self, c: object) -> cython.int:
+    def _level(self, c: Any) -> cython.int:
         level: cython.longlong = quick(c)
         if level == FAR:
             if isinstance(c, float):
@@ -71,7 +73,7 @@ class Lines:
         return level
 
     @cython.cfunc
-    def _samples(self, antialias: object) -> Supersample:
+    def _samples(self, antialias: Any) -> Supersample:
         """The anti-aliasing of a call, as a Supersample."""
         return as_samples(self._antialias if antialias is ... else antialias)
 
@@ -81,7 +83,7 @@ class Lines:
         y = min(max(whole("y", y), -1), LARGEST)
         if c is None:
             inside = 0 <= x < self.surface.width and 0 <= y < self.surface.height
-            return int(self.pixels[y, x]) if inside else 0
+            return self.surface.pixels[y * self.surface.stride + x] if inside else 0
         self._dip(c, op)
         self.surface.point(x, y)
         return None
@@ -97,7 +99,7 @@ class Lines:
         self._block(whole("x", x), whole("y", y), 1, not_negative("h", whole("h", h)))
 
     @cython.cfunc
-    def _block(self, x: object, y: object, w: object, h: object) -> object:
+    def _block(self, x: Any, y: Any, w: Any, h: Any) -> Any:
         """Ink the pixels ``x <= column < x + w`` of the rows ``y <= row < y + h``."""
         row: cython.Py_ssize_t
         first: cython.Py_ssize_t = min(max(x, 0), LARGEST)
@@ -115,7 +117,7 @@ class Lines:
         *,
         width: Real = 1,
         cap: str = "square",
-        antialias: Any = ...,
+        antialias: AntialiasOrDefault = ...,
         op: str = "over",
     ) -> None:
         """Draw the line from (x1, y1) to (x2, y2), both end points included.
@@ -166,7 +168,7 @@ class Lines:
 
     @cython.cfunc
     @cython.inline
-    def _thin(self, x1: object, y1: object, x2: object, y2: object) -> object:
+    def _thin(self, x1: Any, y1: Any, x2: Any, y2: Any) -> Any:
         a: cython.longlong = quick(x1)
         b: cython.longlong = quick(y1)
         c: cython.longlong = quick(x2)
@@ -177,7 +179,7 @@ class Lines:
             self._thin_far(whole("x1", x1), whole("y1", y1), whole("x2", x2), whole("y2", y2))
 
     @cython.cfunc
-    def _thin_far(self, x1: object, y1: object, x2: object, y2: object) -> object:
+    def _thin_far(self, x1: Any, y1: Any, x2: Any, y2: Any) -> Any:
         if max(abs(x1), abs(y1), abs(x2), abs(y2)) <= NEAR:
             bresenham(self.surface, x1, y1, x2, y2)
         else:
@@ -185,8 +187,8 @@ class Lines:
 
     @cython.cfunc
     def _thick(
-        self, x1: object, y1: object, x2: object, y2: object, width: object, square: cython.bint, samples: Supersample
-    ) -> object:
+        self, x1: Any, y1: Any, x2: Any, y2: Any, width: Any, square: cython.bint, samples: Supersample
+    ) -> Any:
         x1, y1, x2, y2 = to_256ths("x1", x1), to_256ths("y1", y1), to_256ths("x2", x2), to_256ths("y2", y2)
         if max(abs(x1), abs(y1), abs(x2), abs(y2)) <= _NEAR_256THS and width <= _WIDE_256THS:
             slab(self.surface, x1, y1, x2, y2, width, square, samples.n, samples.corner)
@@ -200,7 +202,7 @@ class Lines:
         *,
         width: Real = 1,
         cap: str = "square",
-        antialias: Any = ...,
+        antialias: AntialiasOrDefault = ...,
         op: str = "over",
     ) -> None:
         """Draw many lines in one call: as `line` for each row (x1, y1, x2, y2) of an array of shape (n, 4)."""

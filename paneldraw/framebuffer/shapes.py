@@ -11,7 +11,6 @@ from paneldraw.framebuffer.arguments import not_negative, whole
 
 if cython.compiled:
     from cython.cimports.paneldraw.framebuffer.arguments import NEAR
-    from cython.cimports.paneldraw.framebuffer.lines import Lines
     from cython.cimports.paneldraw.raster.curves import circle, circle_far
 else:
     from paneldraw.framebuffer.arguments import NEAR
@@ -19,11 +18,7 @@ else:
     from paneldraw.raster.curves import circle, circle_far
 
 if TYPE_CHECKING:
-    pass
-
-# Aliases, because Cython would take a plain `float` or `int` for a type of its own.
-Real = "float | int"
-Level = "int | None"
+    from paneldraw.framebuffer.arguments import Level, Real
 
 _LARGE_RADIUS = cython.declare(cython.longlong, 1 << 14)
 

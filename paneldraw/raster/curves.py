@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from math import isqrt
+from typing import Any
 
 import cython
 
@@ -78,7 +79,7 @@ def circle(
 
 
 @cython.cfunc
-def circle_far(surface: Surface, cx: object, cy: object, r: object, fill: cython.bint) -> object:
+def circle_far(surface: Surface, cx: Any, cy: Any, r: Any, fill: cython.bint) -> Any:
     """The same circle, whatever its size and place, found row by visible row."""
     for y in range(max(surface.top, cy - r), min(surface.bottom, cy + r + 1)):
         distance = abs(y - cy)

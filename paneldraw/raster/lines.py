@@ -8,6 +8,8 @@ along the shorter axis is lit.
 
 from __future__ import annotations
 
+from typing import Any
+
 import cython
 
 if cython.compiled:
@@ -96,7 +98,7 @@ def bresenham(
 
 
 @cython.cfunc
-def bresenham_far(surface: Surface, x1: object, y1: object, x2: object, y2: object) -> object:
+def bresenham_far(surface: Surface, x1: Any, y1: Any, x2: Any, y2: Any) -> Any:
     """The same line between end points at any distance, found column by visible column (row, if steep)."""
     steep = abs(x2 - x1) < abs(y2 - y1)
     if steep:

@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import cython
 
 if cython.compiled:
@@ -24,7 +26,7 @@ class Outline:
         """Ink the curves on a surface, one after the other."""
 
     @cython.cfunc
-    def paint(self, surface: Surface, top: cython.longlong, bottom: cython.longlong) -> object:
+    def paint(self, surface: Surface, top: cython.longlong, bottom: cython.longlong) -> Any:
         """Paint the outline, which has no pixels outside of the rows ``top <= y < bottom``.
 
         Most operations may be repeated on a pixel. Where that would show, as with xor, the outline is first traced
@@ -54,6 +56,10 @@ class Outline:
 @cython.cclass
 class Polyline(Outline):
     """Bresenham's lines from point to point; coordinates within +-2**29."""
+
+    points: cython.p_longlong
+    count: cython.Py_ssize_t
+    closed: cython.bint
 
     @cython.cfunc
     @cython.nogil

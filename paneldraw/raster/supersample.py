@@ -9,6 +9,8 @@ is painted, once. With n = 1 the only reference point is the pixel's centre (or 
 
 from __future__ import annotations
 
+from typing import Any
+
 import cython
 
 if cython.compiled:
@@ -62,7 +64,7 @@ class Supersample:
         self.reference = reference
         self.corner = reference == "corner"
 
-    def __eq__(self, other: object) -> object:
+    def __eq__(self, other: object) -> bool:
         if not isinstance(other, Supersample):
             return NotImplemented
         return (self.n, self.reference) == (other.n, other.reference)
@@ -73,7 +75,7 @@ class Supersample:
     def __repr__(self) -> str:
         return f"Supersample(n={self.n}, reference={self.reference!r})"
 
-    def __reduce__(self) -> object:
+    def __reduce__(self) -> tuple[Any, ...]:
         return Supersample, (self.n, self.reference)
 
 

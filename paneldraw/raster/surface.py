@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import cython
 import numpy as np
 
@@ -18,9 +20,11 @@ class Surface:
     a table that says for every level what becomes of it, so that each operation costs one look-up a pixel.
     """
 
+    mask: Surface | None
+
     def __init__(
         self,
-        memory: object,
+        memory: Any,
         origin: cython.Py_ssize_t,
         stride: cython.Py_ssize_t,
         width: cython.Py_ssize_t,
@@ -51,7 +55,7 @@ class Surface:
         self.reserve()
 
     @cython.cfunc
-    def reserve(self) -> object:
+    def reserve(self) -> Any:
         """Make the row in which coverage is counted: one counter a pixel and two beyond the right end, all zero."""
         if cython.compiled:
             self.scratch = bytearray(4 * (self.width + 2))

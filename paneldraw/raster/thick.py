@@ -9,6 +9,7 @@ inside lies to its right, or, on a horizontal edge, below: rectangles that share
 from __future__ import annotations
 
 from math import isqrt
+from typing import Any
 
 import cython
 
@@ -208,15 +209,15 @@ def slab(
 @cython.cfunc
 def slab_far(
     surface: Surface,
-    x1: object,
-    y1: object,
-    x2: object,
-    y2: object,
-    width: object,
+    x1: Any,
+    y1: Any,
+    x2: Any,
+    y2: Any,
+    width: Any,
     square: cython.bint,
     n: cython.int,
     corner: cython.bint,
-) -> object:
+) -> Any:
     """The same rectangle, whatever its size and place: the same inequalities, solved anew for each sub-scanline."""
     if y2 < y1 or (y1 == y2 and x1 < x2):
         x1, y1, x2, y2 = x2, y2, x1, y1
