@@ -1,0 +1,300 @@
+"""The reference device: the far end of the link as `PROTOCOL.md` describes it, over any I²C-like bus."""
+
+from __future__ import annotations
+
+import errno
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Any, Protocol
+
+from firmware_protocol.frames import Frame, FrameDecoder
+from firmware_protocol.messages import (
+    BASE_BAUDRATE,
+    NEWEST_VERSION,
+    OLDEST_VERSION,
+    Ack,
+    Baud,
+    Boot,
+    Fault,
+    Hello,
+    HelloReply,
+    Message,
+    Nak,
+    NakReason,
+    Poll,
+    Reset,
+    Status,
+    Write,
+    decode,
+    encode,
+    is_sequenced,
+)
+from firmware_protocol.runs import unpack_runs
+
+#: Seconds after a change of rate in which a valid frame must come.
+PROBATION = 0.3
+#: Seconds after a damaged frame in which a valid one must come, at any rate but the first.
+DOUBT = 1.5
+
+_STUCK = (errno.ETIMEDOUT, errno.EBUSY, errno.EAGAIN)
+
+
+class Bus(Protocol):
+    """What a device needs of an I²C bus: smbus2's ``i2c_rdwr``."""
+
+    def i2c_rdwr(self, *messages: Any) -> None:
+        """Carry the messages; raise OSError if nobody acknowledges."""
+
+
+class SMBusWriter:
+    """Writes to one address of a bus with smbus2's interface.
+
+    Parameters
+    ----------
+    bus : object
+        ``smbus2.SMBus`` or anything with its ``i2c_rdwr``.
+    address : int, default 0x3C
+        7-bit address of the panel.
+    """
+
+    def __init__(self, bus: Bus, address: int = 0x3C) -> None:
+        from smbus2 import i2c_msg
+
+        self.bus = bus
+        self.address = address
+        self._message = i2c_msg.write
+
+    def __call__(self, content: bytes) -> None:
+        """Write ``content`` in one transaction; OSError if the panel does not acknowledge."""
+        self.bus.i2c_rdwr(self._message(self.address, content))
+
+
+@dataclass
+class Counters:
+    """What a device has seen go wrong since its start; each wraps at 65 536."""
+
+    damaged: int = 0
+    overflows: int = 0
+    line_errors: int = 0
+
+
+class Device:
+    """A device on the far end of a serial link.
+
+    It is a function from bytes to bytes: `receive` takes what came over the line and returns what goes back.
+    Whatever carries the bytes (a pty, a socket, a test) stays outside.
+
+    Parameters
+    ----------
+    write : callable
+        Called with the bytes of one transaction on the panel's bus, control byte first (00 commands, 40 data), or with
+        no bytes to see whether the panel answers. Raises OSError where the panel does not. See `SMBusWriter`.
+    profile : HelloReply, optional
+        What the device says of itself; ``nonce``, ``version``, ``boot``, ``cause`` and ``present`` are filled in by
+        the device. Default: a 128 x 64 SSD1306 at 3C behind an ATmega328P.
+    boot : int, default 1
+        Number of this start, 16 bits; `reset` counts on.
+    clock : callable, default `time.monotonic`
+        Seconds, for changes of rate.
+
+    Attributes
+    ----------
+    baudrate : int
+        The rate that the device listens at now, bits a second.
+    counters : Counters
+        What went wrong on the line.
+    pictures : int
+        How many times a WRITE completed a picture.
+
+    Examples
+    --------
+    >>> from firmware_protocol.messages import Hello, Write, decode, encode
+    >>> written = []
+    >>> device = Device(written.append)
+    >>> hello = device.receive(encode(Hello(nonce=7)))
+    >>> reply = device.receive(encode(Write(0, bytes.fromhex("82 b0 02 10 00 ff"))))
+    >>> reply == encode(Ack(0))
+    True
+    >>> [transaction.hex() for transaction in written if transaction]
+    ['00b00210', '40ff']
+    """
+
+    def __init__(
+        self,
+        write: Callable[[bytes], None],
+        *,
+        profile: HelloReply | None = None,
+        boot: int = 1,
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
+        self.write = write
+        self.profile = profile or UNO
+        self.clock = clock
+        self.boot = boot - 1 & 0xFFFF
+        self.counters = Counters()
+        self.pictures = 0
+        self._decoder = FrameDecoder(self.profile.max_payload)
+        self.reset(1)
+
+    def reset(self, cause: int = 2) -> bytes:
+        """Start anew, as after a reset; return the BOOT message that goes out at 115 200 bits a second.
+
+        Parameters
+        ----------
+        cause : int, default 2
+            1 power on, 2 reset pin, 4 brown-out, 8 watchdog.
+        """
+        self.boot = self.boot + 1 & 0xFFFF
+        self.cause = cause
+        self.baudrate = BASE_BAUDRATE
+        self.counters = Counters()
+        self._decoder.clear()
+        self._in_session = False
+        self._expected = 0
+        self._fault = Fault.NONE
+        self._nak_armed = False
+        self._revert_at: float | None = None
+        return encode(Boot(self.boot, cause))
+
+    def receive(self, data: bytes) -> bytes:
+        """Take bytes from the line, carry out what they complete, return the bytes that answer."""
+        self.tick()
+        return b"".join(encode(reply) for frame in self._decoder.feed(data) for reply in self._answer(frame))
+
+    def line_error(self) -> None:
+        """Count a character that the line's receiver found broken or had to drop."""
+        self.counters.line_errors = self.counters.line_errors + 1 & 0xFFFF
+        self._doubt()
+
+    def tick(self) -> None:
+        """Let time pass: go back to 115 200 when a change of rate has not worked."""
+        if self._revert_at is not None and self.clock() >= self._revert_at:
+            self._revert_at = None
+            self.baudrate = BASE_BAUDRATE
+            self._decoder.clear()
+
+    def _doubt(self) -> None:
+        if self.baudrate != BASE_BAUDRATE and self._revert_at is None:
+            self._revert_at = self.clock() + DOUBT
+
+    def _answer(self, frame: Frame | None) -> list[Message]:
+        if frame is None:
+            self.counters.damaged = self.counters.damaged + 1 & 0xFFFF
+            self._doubt()
+            return self._nak(NakReason.DAMAGED)
+        self._revert_at = None
+        if is_sequenced(frame.kind):
+            return self._in_sequence(frame)
+        try:
+            message = decode(frame)
+        except ValueError:
+            return []
+        match message:
+            case Hello():
+                return [self._greet(message)]
+            case Poll(token):
+                return [self._status(token)]
+        return []
+
+    def _in_sequence(self, frame: Frame) -> list[Message]:
+        if not self._in_session:
+            return [Boot(self.boot, self.cause)]
+        ahead = frame.seq - self._expected & 0xFF
+        if ahead >= 128:
+            return [Ack(self._expected - 1 & 0xFF, self._fault)]
+        if ahead:
+            return self._nak(NakReason.GAP)
+        self._expected = self._expected + 1 & 0xFF
+        self._nak_armed = True
+        self._execute(frame)
+        return [Ack(frame.seq, self._fault)]
+
+    def _nak(self, reason: NakReason) -> list[Message]:
+        if not self._in_session or (reason == NakReason.GAP and not self._nak_armed):
+            return []
+        self._nak_armed = False
+        return [Nak(self._expected, reason)]
+
+    def _greet(self, hello: Hello) -> Message:
+        version = min(hello.newest, self.profile.newest)
+        if version < max(hello.oldest, self.profile.oldest):
+            version = 0
+        self._in_session = version > 0
+        self._nak_armed = True
+        self._expected = 0
+        self._fault = Fault.NONE
+        return replace(
+            self.profile,
+            nonce=hello.nonce,
+            version=version,
+            boot=self.boot,
+            cause=self.cause,
+            present=self._transfer(b"") is Fault.NONE,
+        )
+
+    def _status(self, token: int) -> Message:
+        if not self._in_session:
+            return Boot(self.boot, self.cause)
+        self._nak_armed = True
+        seen = self.counters
+        return Status(token, self._expected, self._fault, self.boot, seen.damaged, seen.overflows, seen.line_errors)
+
+    def _execute(self, frame: Frame) -> None:
+        try:
+            message = decode(frame)
+        except ValueError:
+            known = frame.kind in (0x10, 0x11, 0x12, 0x13)
+            self._fail(Fault.MALFORMED if known else Fault.UNKNOWN_KIND)
+            return
+        match message:
+            case Reset():
+                self._fault = Fault.NONE
+            case Baud(rate=rate) if not self._fault:
+                self._change_rate(rate)
+            case Write(payload=payload, end=end) if not self._fault:
+                self._write(payload, end)
+
+    def _change_rate(self, rate: int) -> None:
+        if rate not in self.profile.bauds:
+            self._fail(Fault.BAUD_NOT_OFFERED)
+            return
+        self.baudrate = rate
+        self._revert_at = None if rate == BASE_BAUDRATE else self.clock() + PROBATION
+
+    def _write(self, payload: bytes, end: bool) -> None:
+        try:
+            runs = unpack_runs(payload)
+        except ValueError:
+            self._fail(Fault.MALFORMED)
+            return
+        for is_data, content in runs:
+            self._fail(self._transfer((b"\x40" if is_data else b"\x00") + content))
+            if self._fault:
+                return
+        self.pictures += end
+
+    def _transfer(self, content: bytes) -> Fault:
+        try:
+            self.write(content)
+        except OSError as error:
+            return Fault.BUS_STUCK if error.errno in _STUCK else Fault.ADDRESS_NACK
+        return Fault.NONE
+
+    def _fail(self, fault: Fault) -> None:
+        self._fault = self._fault or fault
+
+
+#: What the firmware on an Arduino Uno or Nano with a 128 x 64 SSD1306 says of itself.
+UNO = HelloReply(
+    nonce=0,
+    oldest=OLDEST_VERSION,
+    newest=NEWEST_VERSION,
+    max_payload=250,
+    window=464,
+    width=128,
+    height=64,
+    bauds=(500_000, 1_000_000, 250_000, 115_200),
+    controller="ssd1306",
+    firmware="paneldraw reference 1.0",
+)

@@ -1,0 +1,473 @@
+"""The host's side of the link: sessions, credits, acknowledgements and recovery over any pyserial port."""
+
+from __future__ import annotations
+
+import os
+import time
+from collections import deque
+from collections.abc import Callable, Iterable
+from contextlib import suppress
+from itertools import islice
+from types import TracebackType
+from typing import Any, NoReturn
+
+from firmware_protocol.errors import (
+    DeviceResetError,
+    LinkError,
+    LinkTimeoutError,
+    NoDeviceError,
+    PanelFaultError,
+    VersionError,
+)
+from firmware_protocol.frames import DELIMITER, FRAME_OVERHEAD, encode_frame, wire_size
+from firmware_protocol.line import PORT_ERRORS, Line, LinkStats
+from firmware_protocol.messages import (
+    BASE_BAUDRATE,
+    NEWEST_VERSION,
+    OLDEST_VERSION,
+    Ack,
+    Baud,
+    Boot,
+    Fault,
+    Hello,
+    HelloReply,
+    Kind,
+    Message,
+    Nak,
+    Poll,
+    Status,
+    encode,
+)
+from firmware_protocol.runs import LEAST_PAYLOAD, Run, pack_runs, unpack_runs
+
+#: Seconds between two attempts to be heard, to begin with.
+PATIENCE = 0.25
+#: How often a silent device is asked before it is given up.
+ATTEMPTS = 7
+#: How often it is asked at a faster rate before the first rate is tried: it may have restarted.
+HOPES = 2
+#: How often one frame is sent in vain before the line is given up.
+RETRIES = 25
+#: Most frames under way; half the sequence numbers must stay unambiguous.
+MAX_IN_FLIGHT = 100
+#: Payload that a bad line shrinks frames to: at 3 errors in 1000 bytes five of six still arrive.
+BAD_LINE_PAYLOAD = 48
+
+_PROBATION = 0.3
+
+_FAULTS = {
+    Fault.ADDRESS_NACK: "no panel answers at {address:#04x} behind it: check the panel's wiring and address",
+    Fault.DATA_NACK: "the panel stopped acknowledging in the middle of a write: check its wiring and supply",
+    Fault.BUS_STUCK: "the panel's bus is stuck: check pull-up resistors and wiring, then power the panel off and on",
+    Fault.MALFORMED: "it refused a malformed message: update the firmware, or report this",
+    Fault.UNKNOWN_KIND: "it does not know a message that this version sends: update the firmware",
+    Fault.BAUD_NOT_OFFERED: "it does not offer that baud rate",
+}
+
+
+class HostLink:
+    """A session with the device on a serial port.
+
+    Not thread-safe; it starts no thread. Between calls nothing needs to run.
+
+    Parameters
+    ----------
+    port : pyserial port
+        Open, from ``serial.Serial`` or ``serial.serial_for_url``. The link sets its ``timeout`` and ``baudrate`` and
+        closes it in `close`.
+    baudrate : int, optional
+        Bits a second after the handshake, one of those that the device offers. Default: the rate the device likes
+        best, or 115 200 if that does not work here.
+    timeout : float, default 3.0
+        Seconds to wait for a device to answer the handshake; boards that reset when a port is opened need two.
+    clock : callable, default `time.monotonic`
+        Seconds.
+
+    Attributes
+    ----------
+    device : HelloReply
+        What answered.
+
+    Raises
+    ------
+    LinkError
+        One of its kinds: nobody there, no common version, the port lost.
+
+    Examples
+    --------
+    >>> import serial                                                       # doctest: +SKIP
+    >>> with HostLink(serial.Serial("/dev/ttyACM0", 115200)) as link:       # doctest: +SKIP
+    ...     link.write([(False, b"\\xb0\\x00\\x10"), (True, b"\\xff")])
+    """
+
+    def __init__(
+        self,
+        port: Any,
+        *,
+        baudrate: int | None = None,
+        timeout: float = 3.0,
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
+        if baudrate is not None and baudrate <= 0:
+            raise ValueError(f"baudrate must be positive, not {baudrate}")
+        self._line = Line(port)
+        self.timeout = timeout
+        self.clock = clock
+        self.device = HelloReply(0)
+        self._wanted_rate = baudrate
+        # What is not acknowledged, and the sizes on the wire of that part of it that is under way.
+        self._work: deque[tuple[int, bytes]] = deque()
+        self._sizes: deque[int] = deque()
+        self._token = 0
+        self._forget()
+        self.connect()
+
+    def __enter__(self) -> HostLink:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()
+
+    @property
+    def stats(self) -> LinkStats:
+        """Bytes and events so far."""
+        return self._line.stats
+
+    @property
+    def baudrate(self) -> int:
+        """The rate in use, bits a second."""
+        return self._line.baudrate
+
+    @property
+    def message_overhead(self) -> int:
+        """Bytes a WRITE costs on the wire beyond its runs; each run costs one more byte in 32 or 128."""
+        return FRAME_OVERHEAD
+
+    def connect(self) -> None:
+        """Begin a new session, opening the port again if it was lost. `submit` does it where it must."""
+        self._forget()
+        self._line.open()
+        self._shake_hands()
+        self._choose_rate()
+        self._in_session = True
+        self.stats.sessions += 1
+
+    def write(self, runs: Iterable[Run], *, end: bool = True) -> None:
+        """Write runs to the panel and return when the panel's bus has taken them; see `submit`."""
+        self.submit(runs, end=end)
+        self.drain()
+
+    def submit(self, runs: Iterable[Run], *, end: bool = True) -> None:
+        """Send runs to the panel without waiting for the last acknowledgements.
+
+        Parameters
+        ----------
+        runs : iterable of (bool, bytes)
+            Whether the bytes are data (True) or commands (False), and the bytes.
+        end : bool, default True
+            Whether the runs complete a picture.
+
+        Raises
+        ------
+        LinkError
+            One of its kinds, for this or for an earlier call's runs. What was under way is lost; the next call
+            begins anew.
+        """
+        self._begin()
+        self._work.extend(self._writes(runs, end))
+        self._pump()
+        while len(self._sizes) < len(self._work):
+            self._step()
+
+    def drain(self) -> None:
+        """Wait until everything submitted is acknowledged."""
+        while self._work:
+            self._step()
+
+    def reset_panel(self) -> None:
+        """Pull the panel's reset line, where the device has one."""
+        self._begin()
+        self._sequenced(Kind.RESET, b"\1")
+
+    def status(self) -> Status:
+        """Ask the device for its counters."""
+        self._begin()
+        self.drain()
+        self._poll()
+        while self._polling is not None:
+            self._step()
+        return self._status
+
+    def ping(self) -> float:
+        """Return the seconds from a question to its answer."""
+        start = self.clock()
+        self.status()
+        return self.clock() - start
+
+    def close(self) -> None:
+        """Leave the device at its first rate and close the port; may be called again."""
+        if self._in_session and not self._work and self.baudrate != BASE_BAUDRATE:
+            with suppress(LinkError):
+                self._line.send(encode(Baud(self._base, BASE_BAUDRATE)))
+        self._forget()
+        self._line.close()
+
+    # -- sessions
+
+    def _begin(self) -> None:
+        if self._line.lost or not self._in_session:
+            self.connect()
+
+    def _forget(self) -> None:
+        self._in_session = False
+        self._work.clear()
+        self._sizes.clear()
+        self._base = 0
+        self._polling: int | None = None
+        self._failures = self._retries = 0
+        self._deadline = 0.0
+        self._settling = False
+        self._fault = Fault.NONE
+
+    def _shake_hands(self) -> None:
+        deadline = self.clock() + self.timeout
+        received = self.stats.bytes_received
+        spoke = echoed = False
+        while self.clock() < deadline:
+            nonce = int.from_bytes(os.urandom(4), "little")
+            self._line.send(DELIMITER + encode(Hello(nonce)))
+            until = min(deadline, self.clock() + PATIENCE)
+            while self.clock() < until:
+                for message in self._line.receive():
+                    if isinstance(message, HelloReply) and message.nonce == nonce:
+                        self._accept(message)
+                        return
+                    spoke = spoke or isinstance(message, HelloReply | Status | Boot | Ack | Nak)
+                    echoed = echoed or isinstance(message, Hello)
+        raise NoDeviceError(self._diagnosis(self.stats.bytes_received - received, spoke, echoed))
+
+    def _diagnosis(self, received: int, spoke: bool, echoed: bool) -> str:
+        if spoke:
+            return f"the board on {self._line.name} speaks but does not answer: press its reset button and try again"
+        if echoed:
+            return f"{self._line.name} sends back what it is sent: nothing but a loop-back is connected there"
+        if received:
+            return (
+                f"something talks on {self._line.name} ({received} bytes in {self.timeout:g} s), and it is not "
+                "paneldraw's firmware: check the port, or flash the firmware (see firmware_protocol/firmware/README.md)"
+            )
+        return (
+            f"nothing answers on {self._line.name} at {BASE_BAUDRATE} baud: check the port and the cable, and that the "
+            "board runs paneldraw's firmware (see firmware_protocol/firmware/README.md)"
+        )
+
+    def _accept(self, reply: HelloReply) -> None:
+        if not reply.version:
+            side = "paneldraw" if reply.oldest > NEWEST_VERSION else "the board's firmware"
+            raise VersionError(
+                f"the board on {self._line.name} speaks protocol versions {reply.oldest} to {reply.newest}, this "
+                f"paneldraw {OLDEST_VERSION} to {NEWEST_VERSION}: update {side}"
+            )
+        if reply.max_payload < LEAST_PAYLOAD or reply.window < wire_size(LEAST_PAYLOAD):
+            raise VersionError(f"the board on {self._line.name} takes too little at a time: update its firmware")
+        self.device = reply
+        self._size_frames()
+
+    def _choose_rate(self) -> None:
+        offered = self.device.bauds
+        wanted = self._wanted_rate or (offered[0] if offered else BASE_BAUDRATE)
+        if wanted == BASE_BAUDRATE or not offered:
+            return
+        if wanted not in offered:
+            raise LinkError(
+                f"the board on {self._line.name} does not offer {wanted} baud; it offers {', '.join(map(str, offered))}"
+            )
+        self._sequenced(Kind.BAUD, wanted.to_bytes(4, "little"))
+        try:
+            self._line.set_rate(wanted)
+            if self._heard():
+                self._size_frames()
+                return
+        except PORT_ERRORS:
+            pass  # an adapter that cannot do this rate
+        self._line.set_rate(BASE_BAUDRATE)
+        self._wait(_PROBATION)
+        self._forget()
+        self._shake_hands()
+
+    def _heard(self) -> bool:
+        until = self.clock() + _PROBATION
+        while self.clock() < until:
+            self._poll()
+            again = self.clock() + _PROBATION / 5
+            while self.clock() < again:
+                for message in self._line.receive():
+                    self._handle(message)
+                if self._polling is None:
+                    return True
+        self._polling = None
+        return False
+
+    def _wait(self, seconds: float) -> None:
+        until = self.clock() + seconds
+        while self.clock() < until:
+            self._line.receive()
+
+    def _size_frames(self) -> None:
+        # A slow wire wants few large frames; a fast one wants the next frame there when the panel is done with one.
+        parts = 2 if self.baudrate <= 230_400 else 3
+        self._best_payload = max(LEAST_PAYLOAD, min(self.device.max_payload, self.device.window // parts - 8))
+        self._payload_limit = self._best_payload
+        self._window = self.device.window
+
+    # -- the window
+
+    def _writes(self, runs: Iterable[Run], end: bool) -> list[tuple[int, bytes]]:
+        payloads = pack_runs(runs, self._payload_limit, repeats=self.device.repeats)
+        last = len(payloads) - 1
+        return [(Kind.WRITE_END if end and at == last else Kind.WRITE, payload) for at, payload in enumerate(payloads)]
+
+    def _sequenced(self, kind: Kind, payload: bytes) -> None:
+        self._work.append((kind, payload))
+        self._pump()
+        self.drain()
+
+    def _pump(self) -> None:
+        """Send what the credits allow."""
+        sizes = self._sizes
+        if self._polling is not None or len(sizes) == len(self._work):
+            return
+        if not sizes:
+            self._expect()
+        batch = []
+        under_way = sum(sizes)
+        for kind, payload in islice(self._work, len(sizes), None):
+            frame = encode_frame(kind, self._base + len(sizes) & 0xFF, payload)
+            under_way += len(frame)
+            if sizes and (under_way > self._window or len(sizes) >= MAX_IN_FLIGHT):
+                break
+            sizes.append(len(frame))
+            batch.append(frame)
+        if batch:
+            self.stats.frames += len(batch)
+            self._line.send(b"".join(batch))
+
+    def _step(self) -> None:
+        """Wait for something to happen and act on it."""
+        for message in self._line.receive():
+            self._handle(message)
+        if self._fault and not self._settling:
+            self._settle(self._fault)
+        if self._work or self._polling is not None:
+            if self.clock() >= self._deadline:
+                self._time_out()
+            self._pump()
+
+    def _handle(self, message: Message) -> None:
+        match message:
+            case Ack(seq, fault):
+                self._done((seq - self._base & 0xFF) + 1)
+                self._fault = self._fault or fault
+            case Nak():
+                self.stats.naks += 1
+                if self._polling is None:
+                    self._slow_down()
+                self._poll()
+            case Status(token) if token == self._polling:
+                self._polling = None
+                self._failures = 0
+                self._status = message
+                self._fault = self._fault or message.fault
+                self._go_back(message.expected)
+            case Boot(cause=cause):
+                self._fail(DeviceResetError, f"the board on {self._line.name} has restarted ({_cause(cause)})")
+
+    def _done(self, count: int) -> None:
+        """Retire the ``count`` oldest frames; more than are under way means an old acknowledgement."""
+        if count > len(self._sizes):
+            return
+        for _ in range(count):
+            self._sizes.popleft()
+            self._work.popleft()
+        self._base = self._base + count & 0xFF
+        self._failures = self._retries = 0
+        self._speed_up(count)
+        self._expect()
+
+    def _go_back(self, expected: int) -> None:
+        """Begin again with the first frame that the device has not taken: all sent before the POLL has been seen."""
+        count = expected - self._base & 0xFF
+        if count > len(self._sizes):
+            self._fail(LinkTimeoutError, f"the board on {self._line.name} lost count of what it was sent; try again")
+        if count:
+            self._done(count)
+        self._retries += 1
+        if self._retries > RETRIES:
+            self._fail(LinkTimeoutError, f"the line to {self._line.name} is too noisy: lower the baud rate")
+        self.stats.resent += len(self._sizes)
+        self._sizes.clear()
+        self._cut()
+
+    def _cut(self) -> None:
+        """Cut what is to be sent again into frames of the size that the line bears now."""
+        smaller: list[tuple[int, bytes]] = []
+        for kind, payload in self._work:
+            if kind in (Kind.WRITE, Kind.WRITE_END) and len(payload) > self._payload_limit:
+                smaller += self._writes(unpack_runs(payload), kind == Kind.WRITE_END)
+            else:
+                smaller.append((kind, payload))
+        self._work = deque(smaller)
+
+    def _slow_down(self) -> None:
+        self._payload_limit = max(BAD_LINE_PAYLOAD, self._payload_limit // 2)
+        self._window = max(2 * wire_size(self._payload_limit), self._window // 2)
+
+    def _speed_up(self, count: int) -> None:
+        self._payload_limit = min(self._best_payload, self._payload_limit + count)
+        self._window = min(self.device.window, self._window + 8 * count)
+
+    def _expect(self) -> None:
+        on_the_way = 20 * self.device.window / self.baudrate
+        self._deadline = self.clock() + PATIENCE * min(4, 2**self._failures) + on_the_way
+
+    def _poll(self) -> None:
+        self._token = self._token + 1 & 0xFF
+        self._polling = self._token
+        self._expect()
+        self._line.send(DELIMITER + encode(Poll(self._token)))
+
+    def _time_out(self) -> None:
+        self.stats.timeouts += 1
+        self._failures += 1
+        if self._failures > ATTEMPTS:
+            self._fail(
+                LinkTimeoutError,
+                f"the board on {self._line.name} has stopped answering: check the cable, or press its reset button",
+            )
+        if self._failures > HOPES and self.baudrate != BASE_BAUDRATE:
+            self._line.set_rate(BASE_BAUDRATE)
+        self._slow_down()
+        self._poll()
+
+    def _settle(self, fault: Fault) -> NoReturn:
+        """Let the device run through what it will not write, clear its fault, and tell the caller."""
+        self._settling = True
+        while len(self._work) > len(self._sizes):
+            self._work.pop()
+        self.drain()
+        self._sequenced(Kind.RESET, b"\0")
+        self._settling = False
+        self._fault = Fault.NONE
+        text = _FAULTS.get(fault, "it reports a fault").format(address=self.device.address)
+        raise PanelFaultError(fault, f"the board on {self._line.name} works, but {text}")
+
+    def _fail(self, kind: type[LinkError], text: str) -> NoReturn:
+        self._forget()
+        raise kind(text)
+
+
+def _cause(cause: int) -> str:
+    names = ("power on", "reset pin", "brown-out", "watchdog")
+    return " and ".join(name for bit, name in enumerate(names) if cause >> bit & 1) or "cause unknown"

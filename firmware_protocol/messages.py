@@ -1,0 +1,324 @@
+"""The messages of the link, as frozen records, and their way into frames and back."""
+
+from __future__ import annotations
+
+import struct
+from collections.abc import Callable
+from dataclasses import dataclass
+from enum import IntEnum
+
+from firmware_protocol.frames import Frame, encode_frame
+
+#: The protocol versions this package speaks.
+OLDEST_VERSION = 1
+NEWEST_VERSION = 1
+#: Every device starts, and after trouble ends, at this rate.
+BASE_BAUDRATE = 115_200
+
+
+class Kind(IntEnum):
+    """The number of a message: below 80 from the host, 10 to 1F in sequence, from 80 on from the device."""
+
+    HELLO = 0x01
+    POLL = 0x02
+    WRITE = 0x10
+    WRITE_END = 0x11
+    BAUD = 0x12
+    RESET = 0x13
+    HELLO_REPLY = 0x81
+    STATUS = 0x82
+    BOOT = 0x83
+    ACK = 0x84
+    NAK = 0x85
+
+
+class Fault(IntEnum):
+    """What went wrong first since the last HELLO or RESET; while it is not NONE, nothing is written to the panel."""
+
+    NONE = 0
+    ADDRESS_NACK = 1
+    DATA_NACK = 2
+    BUS_STUCK = 3
+    MALFORMED = 4
+    UNKNOWN_KIND = 5
+    BAUD_NOT_OFFERED = 6
+
+
+class NakReason(IntEnum):
+    """Why a NAK was sent."""
+
+    DAMAGED = 1
+    GAP = 2
+
+
+class PanelBus(IntEnum):
+    """What joins the device to its panel."""
+
+    NONE = 0
+    I2C = 1
+    SPI = 2
+
+
+def is_sequenced(kind: int) -> bool:
+    """Return whether frames of this kind are counted, acknowledged and repeated when lost."""
+    return 0x10 <= kind <= 0x1F
+
+
+@dataclass(frozen=True, slots=True)
+class Hello:
+    """Host: begin a session. ``nonce`` (32 bits) comes back in the reply."""
+
+    nonce: int
+    oldest: int = OLDEST_VERSION
+    newest: int = NEWEST_VERSION
+
+
+@dataclass(frozen=True, slots=True)
+class Poll:
+    """Host: say, once all before this is done, what you expect next. ``token`` (8 bits) comes back in the reply."""
+
+    token: int
+
+
+@dataclass(frozen=True, slots=True)
+class Write:
+    """Host: write these runs to the panel (see `pack_runs`); ``end`` says that they complete a picture."""
+
+    seq: int
+    payload: bytes
+    end: bool = True
+
+
+@dataclass(frozen=True, slots=True)
+class Baud:
+    """Host: acknowledge, then go on at this rate, in bits a second."""
+
+    seq: int
+    rate: int
+
+
+@dataclass(frozen=True, slots=True)
+class Reset:
+    """Host: forget the fault and, with ``pulse``, pull the panel's reset line if there is one."""
+
+    seq: int
+    pulse: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class HelloReply:
+    """Device: what answers.
+
+    Attributes
+    ----------
+    nonce : int
+        That of the HELLO.
+    version : int
+        The version of this session, 0 if there is none that both speak.
+    oldest, newest : int
+        The versions that the device speaks.
+    boot : int
+        Another number after each start, 16 bits.
+    cause : int
+        Bits: 1 power on, 2 reset pin, 4 brown-out, 8 watchdog.
+    bus : PanelBus
+        What joins device and panel.
+    address : int
+        The panel's 7-bit I²C address, 0 elsewhere.
+    acknowledges : bool
+        Whether the panel's bus tells that a byte arrived.
+    present : bool
+        Whether the panel answered just now (True where the bus cannot tell).
+    reset_line : bool
+        Whether RESET can pull the panel's reset line.
+    repeats : bool
+        Whether WRITE may hold repeats.
+    max_payload, window : int
+        Longest payload, and most bytes on the wire that may be unacknowledged.
+    width, height : int
+        Of the panel in pixels, 0 if the device does not know.
+    bauds : tuple of int
+        Rates for BAUD, the best first; empty where the rate does not matter.
+    controller, firmware : str
+        The panel's chip as the host names it, or "" if not known; the firmware's name and version.
+    """
+
+    nonce: int
+    version: int = NEWEST_VERSION
+    oldest: int = OLDEST_VERSION
+    newest: int = NEWEST_VERSION
+    boot: int = 0
+    cause: int = 0
+    bus: PanelBus = PanelBus.I2C
+    address: int = 0x3C
+    acknowledges: bool = True
+    present: bool = True
+    reset_line: bool = False
+    repeats: bool = True
+    max_payload: int = 250
+    window: int = 464
+    width: int = 0
+    height: int = 0
+    bauds: tuple[int, ...] = ()
+    controller: str = ""
+    firmware: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Status:
+    """Device: the answer to a POLL; ``expected`` is the sequence number it wants next, the rest are counters."""
+
+    token: int
+    expected: int
+    fault: Fault = Fault.NONE
+    boot: int = 0
+    damaged: int = 0
+    overflows: int = 0
+    line_errors: int = 0
+
+
+@dataclass(frozen=True, slots=True)
+class Boot:
+    """Device: I have started and know of no session."""
+
+    boot: int
+    cause: int
+
+
+@dataclass(frozen=True, slots=True)
+class Ack:
+    """Device: all up to ``seq`` is done; ``fault`` if something of it failed."""
+
+    seq: int
+    fault: Fault = Fault.NONE
+
+
+@dataclass(frozen=True, slots=True)
+class Nak:
+    """Device: something was lost, ``seq`` is wanted."""
+
+    seq: int
+    reason: NakReason = NakReason.DAMAGED
+
+
+Message = Hello | Poll | Write | Baud | Reset | HelloReply | Status | Boot | Ack | Nak
+
+_HELLO = struct.Struct("<IBB")
+_REPLY = struct.Struct("<IBBBHBBBBBHHHHB")
+_STATUS = struct.Struct("<BBHHHH")
+_BOOT = struct.Struct("<HB")
+
+
+def encode(message: Message) -> bytes:
+    """Return a message as the frame that goes on the wire.
+
+    Examples
+    --------
+    >>> encode(Ack(5)).hex(" ")
+    '03 84 05 03 d4 f3 00'
+    """
+    return encode_frame(*_fields(message))
+
+
+def decode(frame: Frame) -> Message:
+    """Return the message in a frame.
+
+    Bytes after the last field are ignored, so that later versions can add some.
+
+    Raises
+    ------
+    ValueError
+        If there is no message of that kind or its payload does not fit.
+
+    Examples
+    --------
+    >>> decode(Frame(0x84, 5, b"\\x00"))
+    Ack(seq=5, fault=<Fault.NONE: 0>)
+    """
+    reader = _READERS.get(frame.kind)
+    if reader is None:
+        raise ValueError(f"there is no message of kind {frame.kind:02x}")
+    try:
+        return reader(frame.seq, frame.payload)
+    except (struct.error, IndexError, ValueError) as error:
+        raise ValueError(f"the payload of {Kind(frame.kind).name} does not fit: {error}") from error
+
+
+def _fields(message: Message) -> tuple[int, int, bytes]:
+    match message:
+        case Write(seq, payload, end):
+            return Kind.WRITE_END if end else Kind.WRITE, seq, payload
+        case Ack(seq, fault):
+            return Kind.ACK, seq, bytes((fault,))
+        case Hello(nonce, oldest, newest):
+            return Kind.HELLO, 0, _HELLO.pack(nonce, oldest, newest)
+        case Poll(token):
+            return Kind.POLL, token, b""
+        case Baud(seq, rate):
+            return Kind.BAUD, seq, rate.to_bytes(4, "little")
+        case Reset(seq, pulse):
+            return Kind.RESET, seq, bytes((pulse,))
+        case HelloReply():
+            return Kind.HELLO_REPLY, 0, _pack_reply(message)
+        case Status(token, expected, fault, boot, damaged, overflows, line_errors):
+            return Kind.STATUS, token, _STATUS.pack(expected, fault, boot, damaged, overflows, line_errors)
+        case Boot(boot, cause):
+            return Kind.BOOT, 0, _BOOT.pack(boot, cause)
+        case Nak(seq, reason):
+            return Kind.NAK, seq, bytes((reason,))
+
+
+def _pack_reply(reply: HelloReply) -> bytes:
+    flags = reply.acknowledges | reply.present << 1 | reply.reset_line << 2
+    return b"".join(
+        (
+            _REPLY.pack(
+                reply.nonce, reply.version, reply.oldest, reply.newest, reply.boot, reply.cause,
+                reply.bus, reply.address, flags, reply.repeats, reply.max_payload, reply.window,
+                reply.width, reply.height, len(reply.bauds),
+            ),
+            *(rate.to_bytes(4, "little") for rate in reply.bauds),
+            *(bytes((len(name),)) + name.encode("ascii") for name in (reply.controller, reply.firmware)),
+        )
+    )  # fmt: skip
+
+
+def _read_reply(seq: int, payload: bytes) -> HelloReply:
+    nonce, version, oldest, newest, boot, cause, bus, address, flags, encodings, *rest = _REPLY.unpack_from(payload)
+    max_payload, window, width, height, bauds = rest
+    at = _REPLY.size + 4 * bauds
+    rates = struct.unpack(f"<{bauds}I", payload[_REPLY.size : at])
+    controller, at = _read_name(payload, at)
+    firmware, at = _read_name(payload, at)
+    return HelloReply(
+        nonce, version, oldest, newest, boot, cause, PanelBus(bus), address,
+        bool(flags & 1), bool(flags & 2), bool(flags & 4), bool(encodings & 1),
+        max_payload, window, width, height, rates, controller, firmware,
+    )  # fmt: skip
+
+
+def _read_status(seq: int, payload: bytes) -> Status:
+    expected, fault, *counters = _STATUS.unpack_from(payload)
+    return Status(seq, expected, Fault(fault), *counters)
+
+
+def _read_name(payload: bytes, at: int) -> tuple[str, int]:
+    end = at + 1 + payload[at]
+    if end > len(payload):
+        raise ValueError("a name is cut off")
+    return payload[at + 1 : end].decode("ascii"), end
+
+
+_READERS: dict[int, Callable[[int, bytes], Message]] = {
+    Kind.HELLO: lambda seq, payload: Hello(*_HELLO.unpack_from(payload)),
+    Kind.POLL: lambda seq, payload: Poll(seq),
+    Kind.WRITE: lambda seq, payload: Write(seq, payload, False),
+    Kind.WRITE_END: lambda seq, payload: Write(seq, payload, True),
+    Kind.BAUD: lambda seq, payload: Baud(seq, int.from_bytes(struct.unpack_from("4s", payload)[0], "little")),
+    Kind.RESET: lambda seq, payload: Reset(seq, bool(payload[0] & 1)),
+    Kind.HELLO_REPLY: _read_reply,
+    Kind.STATUS: _read_status,
+    Kind.BOOT: lambda seq, payload: Boot(*_BOOT.unpack_from(payload)),
+    Kind.ACK: lambda seq, payload: Ack(seq, Fault(payload[0])),
+    Kind.NAK: lambda seq, payload: Nak(seq, NakReason(payload[0])),
+}

@@ -1,0 +1,175 @@
+"""Frames, messages and tokens: there and back, whatever the bytes."""
+
+from __future__ import annotations
+
+import re
+from importlib import resources
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import firmware_protocol
+from firmware_protocol.device import UNO
+from firmware_protocol.frames import Frame, FrameDecoder, encode_frame, wire_size
+from firmware_protocol.messages import (
+    Ack,
+    Baud,
+    Boot,
+    Fault,
+    Hello,
+    Kind,
+    Message,
+    Nak,
+    NakReason,
+    Poll,
+    Reset,
+    Status,
+    Write,
+    decode,
+    encode,
+)
+from firmware_protocol.runs import pack_runs, unpack_runs
+from firmware_protocol.vectors import generate
+
+HERE = Path(str(resources.files(firmware_protocol)))
+byte = st.integers(0, 255)
+short = st.integers(0, 0xFFFF)
+MESSAGES = st.one_of(
+    st.builds(Hello, st.integers(0, 2**32 - 1), byte, byte),
+    st.builds(Poll, byte),
+    st.builds(Write, byte, st.binary(max_size=250), st.booleans()),
+    st.builds(Baud, byte, st.integers(0, 2**32 - 1)),
+    st.builds(Reset, byte, st.booleans()),
+    st.builds(Status, byte, byte, st.sampled_from(Fault), short, short, short, short),
+    st.builds(Boot, short, byte),
+    st.builds(Ack, byte, st.sampled_from(Fault)),
+    st.builds(Nak, byte, st.sampled_from(NakReason)),
+    st.just(UNO),
+)
+RUNS = st.lists(
+    st.tuples(st.booleans(), st.binary(min_size=1, max_size=400) | st.builds(bytes, st.integers(1, 400))), max_size=12
+)
+
+
+@given(st.lists(st.builds(Frame, byte, byte, st.binary(max_size=1024)), max_size=5), st.randoms(use_true_random=False))
+def test_frames_come_back_however_the_stream_is_cut(frames: list[Frame], random) -> None:
+    stream = b"".join(encode_frame(*frame) for frame in frames)
+    cuts = sorted(random.sample(range(len(stream) + 1), min(len(stream), 4)))
+    decoder = FrameDecoder()
+    found = [f for a, b in zip([0, *cuts], [*cuts, len(stream)], strict=True) for f in decoder.feed(stream[a:b])]
+    assert found == frames
+
+
+@given(st.binary(max_size=2000))
+def test_wire_size_is_the_size_on_the_wire(payload: bytes) -> None:
+    assert len(encode_frame(1, 2, bytes(b or 1 for b in payload))) <= wire_size(len(payload))
+    assert len(encode_frame(1, 2, payload)) >= len(payload) + 6
+
+
+@given(st.lists(st.binary(max_size=300), max_size=8))
+def test_any_bytes_leave_the_decoder_bounded_and_ready(chunks: list[bytes]) -> None:
+    decoder = FrameDecoder(max_payload=64)
+    for chunk in chunks:
+        decoder.feed(chunk)
+        assert len(decoder._held) <= wire_size(64)
+    decoder.feed(b"\0")
+    assert decoder.feed(encode_frame(2, 3, b"x")) == [Frame(2, 3, b"x")]
+
+
+@given(st.builds(Frame, byte, byte, st.binary(max_size=200)), st.data())
+def test_one_changed_byte_is_never_taken_for_the_frame(frame: Frame, data: st.DataObject) -> None:
+    wire = bytearray(encode_frame(*frame))
+    wire[data.draw(st.integers(0, len(wire) - 2))] ^= data.draw(st.integers(1, 255))
+    assert frame not in FrameDecoder().feed(bytes(wire))
+
+
+@given(MESSAGES)
+def test_messages_come_back(message: Message) -> None:
+    (frame,) = FrameDecoder().feed(encode(message))
+    assert frame is not None
+    assert decode(frame) == message
+
+
+@given(st.builds(Frame, st.sampled_from([*Kind, 0x00, 0x1F, 0x99]), byte, st.binary(max_size=80)))
+def test_any_payload_is_a_message_or_a_value_error(frame: Frame) -> None:
+    try:
+        message = decode(frame)
+    except ValueError:
+        return
+    again = encode(message)
+    (back,) = FrameDecoder().feed(again)
+    assert back is not None
+    assert decode(back) == message
+
+
+@given(RUNS, st.integers(33, 250), st.booleans())
+def test_runs_come_back_in_payloads_within_the_limit(runs, limit: int, repeats: bool) -> None:
+    payloads = pack_runs(runs, limit, repeats=repeats)
+    assert all(0 < len(p) <= limit for p in payloads)
+    for wanted in (False, True):
+        sent = b"".join(content for is_data, content in runs if is_data == wanted)
+        came = b"".join(content for p in payloads for is_data, content in unpack_runs(p) if is_data == wanted)
+        assert came == sent
+    kinds = "".join("dc"[not k] for k, _ in runs)
+    came_kinds = "".join("dc"[not k] for p in payloads for k, _ in unpack_runs(p))
+    assert re.sub(r"(.)\1+", r"\1", came_kinds) == re.sub(r"(.)\1+", r"\1", kinds)
+
+
+@given(st.binary(min_size=1, max_size=600), st.booleans())
+def test_packing_never_costs_more_than_literals(content: bytes, doubled: bool) -> None:
+    content = bytes(b for b in content for _ in range(1 + 3 * doubled))
+    plain = sum(map(len, pack_runs([(True, content)], 250, repeats=False)))
+    assert sum(map(len, pack_runs([(True, content)], 250))) <= plain
+
+
+@given(st.binary(max_size=250))
+def test_any_write_payload_unpacks_or_is_a_value_error(payload: bytes) -> None:
+    try:
+        runs = unpack_runs(payload)
+    except ValueError:
+        return
+    assert sum(len(content) for _, content in runs) <= 97 * len(payload)
+
+
+def test_commands_of_one_run_stay_in_one_payload() -> None:
+    runs = [(True, bytes(range(60))), (False, bytes(range(40)))]
+    first, second = pack_runs(runs, 100)
+    assert unpack_runs(first) == runs[:1]
+    assert unpack_runs(second) == runs[1:]
+
+
+def test_a_limit_that_holds_no_command_token_is_refused() -> None:
+    with pytest.raises(ValueError, match="limit"):
+        pack_runs([], 32)
+
+
+def test_one_changed_pixel_costs_12_bytes() -> None:
+    (payload,) = pack_runs([(False, bytes.fromhex("b00810")), (True, b"\xff")], 250)
+    assert len(encode(Write(0, payload))) == 12
+
+
+def test_the_vectors_are_those_of_the_code() -> None:
+    assert (HERE / "vectors/frames.txt").read_text() == generate.frames()
+    assert (HERE / "vectors/conversations.txt").read_text() == generate.transcript()
+
+
+def test_the_examples_of_the_contract_are_frames() -> None:
+    text = (HERE / "PROTOCOL.md").read_text()
+    rows = re.findall(r"^\| (host|device) \| `([0-9a-f ]+)` \| (\w+)", text, re.MULTILINE)
+    assert len(rows) >= 10
+    for side, wire, name in rows:
+        (frame,) = FrameDecoder().feed(bytes.fromhex(wire))
+        assert frame is not None, wire
+        assert Kind(frame.kind).name == name
+        assert (frame.kind < 0x80) == (side == "host")
+        assert encode(decode(frame)) == bytes.fromhex(wire).lstrip(b"\0")
+
+
+def test_the_contract_lists_every_message_and_fault() -> None:
+    text = (HERE / "PROTOCOL.md").read_text()
+    for kind in Kind:
+        assert re.search(rf"^\| {kind:02x} \| {kind.name} \|", text, re.MULTILINE | re.IGNORECASE), kind
+    for fault in Fault:
+        assert re.search(rf"^\| {fault:02d} \| \w", text, re.MULTILINE), fault

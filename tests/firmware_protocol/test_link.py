@@ -1,0 +1,359 @@
+"""The host's side against the reference device, in simulated time."""
+
+from __future__ import annotations
+
+import random
+from dataclasses import replace
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from simulated import Noise, SimulatedPort, whole
+
+from firmware_protocol import (
+    DeviceResetError,
+    Fault,
+    HostLink,
+    LinkError,
+    LinkLostError,
+    LinkTimeoutError,
+    NoDeviceError,
+    PanelFaultError,
+    VersionError,
+)
+from firmware_protocol.device import UNO
+from firmware_protocol.frames import FrameDecoder
+from firmware_protocol.messages import HelloReply
+
+EACH = 0.001
+NOISES = {
+    "flipped": Noise(flip=EACH),
+    "dropped": Noise(drop=EACH),
+    "inserted": Noise(insert=EACH),
+    "together": Noise(EACH, EACH, EACH),
+}
+
+
+def joined(port: SimulatedPort, **options) -> HostLink:
+    return HostLink(port, clock=port.clock, **options)
+
+
+def screens(count: int, seed: int = 1) -> list[bytes]:
+    rng = random.Random(seed)
+    return [rng.randbytes(1024) for _ in range(count)]
+
+
+def cost(port: SimulatedPort, link: HostLink, pictures: list[bytes]) -> float:
+    before = port.carried
+    for picture in pictures:
+        link.write(whole(picture))
+        assert port.panel.ram == picture
+    return (port.carried - before) / len(pictures)
+
+
+@pytest.mark.parametrize("baudrate", [115_200, 500_000, 1_000_000])
+def test_pictures_arrive_and_nothing_overflows(baudrate: int) -> None:
+    port = SimulatedPort()
+    link = joined(port, baudrate=baudrate)
+    assert link.baudrate == port.device.baudrate == baudrate
+    assert cost(port, link, screens(5)) < 1024 / 0.85
+    assert port.device.pictures == 5
+    seen = link.status()
+    assert (seen.damaged, seen.overflows, seen.line_errors) == (0, 0, 0)
+    assert link.stats.resent == link.stats.timeouts == 0
+
+
+@pytest.mark.parametrize("name", NOISES)
+@pytest.mark.parametrize("baudrate", [115_200, 500_000])
+def test_a_noisy_line_costs_bytes_and_no_picture(name: str, baudrate: int) -> None:
+    clean = SimulatedPort()
+    per_picture = cost(clean, joined(clean, baudrate=baudrate), screens(3))
+    port = SimulatedPort(noise=NOISES[name], seed=3)
+    link = joined(port, baudrate=baudrate)
+    assert cost(port, link, screens(25)) < 2.2 * per_picture
+    assert link.stats.resent > 0
+    assert port.device.counters.overflows == 0
+
+
+@settings(max_examples=30, deadline=None)
+@given(
+    st.integers(0, 2**31),
+    st.builds(Noise, *[st.floats(0, 0.003)] * 3),
+    st.lists(st.lists(st.tuples(st.booleans(), st.integers(1, 300), st.booleans()), max_size=6), max_size=4),
+)
+def test_the_panel_gets_every_run_once_and_in_order(seed: int, noise: Noise, work) -> None:
+    port = SimulatedPort(noise=noise, seed=seed)
+    came: dict[int, bytearray] = {0x00: bytearray(), 0x40: bytearray()}
+    port.panel = lambda content: content and came[content[0]].extend(content[1:])
+    sent: dict[int, bytearray] = {0x00: bytearray(), 0x40: bytearray()}
+    rng = random.Random(seed)
+    link = joined(port, timeout=30.0)
+    for runs in work:
+        made = [(d, bytes(size) if flat else rng.randbytes(size)) for d, size, flat in runs]
+        for is_data, content in made:
+            sent[0x40 * is_data].extend(content)
+        link.submit(made)
+    link.drain()
+    assert came == sent
+
+
+def test_unacknowledged_bytes_stay_within_the_window() -> None:
+    port = SimulatedPort(profile=replace(UNO, window=100, max_payload=60))
+    port.ring = 101
+    link = joined(port)
+    link.write(whole(bytes(range(256)) * 4))
+    assert port.device.counters.overflows == 0
+    assert port.panel.ram == bytes(range(256)) * 4
+
+
+def test_a_device_without_repeats_gets_none() -> None:
+    port = SimulatedPort(profile=replace(UNO, repeats=False))
+    link = joined(port)
+    link.write(whole(bytes(1024)))
+    assert link.stats.bytes_sent > 1024
+
+
+def test_acknowledgements_twice_late_and_out_of_order_do_no_harm() -> None:
+    port = SimulatedPort()
+    held: list[bytes] = []
+
+    def shuffle(replies: bytes) -> bytes:
+        frames = [part + b"\0" for part in replies.split(b"\0")[:-1]]
+        held.extend(frames)
+        if len(held) < 3:
+            return b"".join(frames)
+        out = [held[2], held[0], held[2], held[1], *frames]
+        held.clear()
+        return b"".join(out)
+
+    link = joined(port)
+    port.mangle = shuffle
+    cost(port, link, screens(20))
+
+
+def test_lost_acknowledgements_are_asked_for() -> None:
+    port = SimulatedPort()
+    link = joined(port)
+
+    def swallow(replies: bytes) -> bytes:
+        kinds = [frame.kind for frame in FrameDecoder().feed(replies) if frame]
+        return b"" if 0x84 in kinds else replies
+
+    port.mangle = swallow
+    link.write([(True, b"\1")])
+    assert link.stats.timeouts == 1
+    assert port.device.counters.damaged == 0
+
+
+def test_a_reset_in_the_middle_fails_the_work_and_the_next_begins_anew() -> None:
+    port = SimulatedPort()
+    link = joined(port)
+
+    def reset() -> None:
+        port.waiting.clear()
+        port.reply(port.device.reset(8), 115200)
+
+    port.at(port.now + 0.01, reset)
+    with pytest.raises(DeviceResetError, match="watchdog"):
+        link.write(whole(screens(1)[0]))
+    assert cost(port, link, screens(2)) > 0
+    assert link.stats.sessions == 2
+    assert link.device.cause == 8
+
+
+def test_a_reset_that_nobody_heard_is_noticed_at_the_next_write() -> None:
+    port = SimulatedPort()
+    link = joined(port)
+    port.device.reset(1)
+    with pytest.raises(DeviceResetError):
+        link.write([(True, b"\1")])
+    link.write([(True, b"\1")])
+
+
+def test_a_panel_that_goes_and_comes_back() -> None:
+    port = SimulatedPort()
+    link = joined(port)
+    port.panel.gone = True
+    for _ in range(2):
+        with pytest.raises(PanelFaultError, match="0x3c") as caught:
+            link.write(whole(screens(1)[0]))
+        assert caught.value.fault == Fault.ADDRESS_NACK
+    port.panel.gone = False
+    cost(port, link, screens(2))
+    assert link.stats.timeouts == 0
+    assert link.stats.sessions == 1
+
+
+def test_the_handshake_says_whether_the_panel_answers() -> None:
+    port = SimulatedPort()
+    port.panel.gone = True
+    assert not joined(port).device.present
+    port.panel.gone = False
+    assert joined(port).device.present
+
+
+@pytest.mark.parametrize(
+    ("profile", "advice"),
+    [(replace(UNO, oldest=7, newest=9), "update paneldraw"), (replace(UNO, oldest=0, newest=0), "update the board's")],
+)
+def test_versions_that_have_nothing_in_common(profile: HelloReply, advice: str) -> None:
+    with pytest.raises(VersionError, match=advice):
+        joined(SimulatedPort(profile=profile))
+
+
+def test_a_newer_device_that_still_speaks_ours() -> None:
+    assert joined(SimulatedPort(profile=replace(UNO, newest=9))).device.version == 1
+
+
+class Other(SimulatedPort):
+    """A port with something else on it."""
+
+    def __init__(self, answer) -> None:
+        super().__init__()
+        self.answer = answer
+
+    def write(self, data: bytes) -> int:
+        self.reply(self.answer(data), self.baudrate)
+        return len(data)
+
+
+@pytest.mark.parametrize(
+    ("answer", "says"),
+    [
+        (lambda data: b"", "nothing answers"),
+        (lambda data: b"$GPGGA,123519,4807.038,N,01131.000,E,1,08\r\n", "something talks"),
+        (lambda data: bytes(random.Random(len(data)).randbytes(5000)), "something talks"),
+        (lambda data: data, "loop-back"),
+    ],
+)
+def test_a_port_that_is_no_panel(answer, says: str) -> None:
+    port = Other(answer)
+    with pytest.raises(NoDeviceError, match=says):
+        joined(port)
+    assert port.now < 4
+
+
+def test_noise_before_the_handshake() -> None:
+    port = SimulatedPort()
+    port.device.receive(bytes(range(1, 256)) * 3)
+    port.received += bytes(range(256)) * 20
+    cost(port, joined(port), screens(1))
+
+
+def test_a_device_that_falls_silent_is_given_up_in_bounded_time() -> None:
+    port = SimulatedPort()
+    link = joined(port)
+    port.mangle = lambda replies: b""
+    start = port.now
+    with pytest.raises(LinkTimeoutError, match="stopped answering"):
+        link.write([(True, b"\1")])
+    assert port.now - start < 10
+    port.mangle = lambda replies: replies
+    cost(port, link, screens(1))
+
+
+def test_a_line_that_passes_no_whole_picture_is_given_up() -> None:
+    port = SimulatedPort()
+    link = joined(port)
+    carry = port.device.receive
+    port.device.receive = lambda data: carry(b"\x80" if data == b"\x55" else data)
+    with pytest.raises(LinkTimeoutError, match="noisy"):
+        link.write([(True, b"\x55")])
+
+
+class Unplugged(SimulatedPort):
+    """A port that can be pulled out."""
+
+    out = False
+
+    def _check(self) -> None:
+        if self.out:
+            raise OSError(5, "Input/output error")
+
+    def open(self) -> None:
+        self._check()
+        super().open()
+
+    def write(self, data: bytes) -> int:
+        self._check()
+        return super().write(data)
+
+    def read(self, size: int = 1) -> bytes:
+        self._check()
+        return super().read(size)
+
+
+def test_a_port_pulled_out_and_put_back() -> None:
+    port = Unplugged()
+    link = joined(port)
+    port.at(port.now + 0.02, lambda: setattr(port, "out", True))
+    for _ in range(3):
+        with pytest.raises(LinkLostError, match="plug"):
+            link.write(whole(screens(1)[0]))
+    port.out = False
+    port.device.reset(1)
+    cost(port, link, screens(2))
+    assert link.stats.sessions == 2
+
+
+def test_a_rate_that_is_not_offered() -> None:
+    with pytest.raises(LinkError, match="9600 baud; it offers 500000"):
+        joined(SimulatedPort(), baudrate=9600)
+
+
+class Slow(SimulatedPort):
+    """A port whose adapter cannot go fast: it says so, or it does not."""
+
+    honest = True
+
+    @property
+    def baudrate(self) -> int:
+        return self.rate
+
+    @baudrate.setter
+    def baudrate(self, rate: int) -> None:
+        if rate > 115_200:
+            if self.honest:
+                raise OSError(22, "Invalid argument")
+            rate = 300_000
+        self.rate = rate
+
+
+@pytest.mark.parametrize("honest", [True, False])
+def test_an_adapter_that_cannot_do_the_rate_stays_at_the_first(honest: bool) -> None:
+    port = Slow()
+    port.honest = honest
+    link = joined(port)
+    assert link.baudrate == port.device.baudrate == 115_200
+    cost(port, link, screens(2))
+
+
+def test_a_device_left_at_another_rate_is_found() -> None:
+    port = SimulatedPort()
+    joined(port, baudrate=1_000_000)
+    port.baudrate = 115_200
+    assert port.device.baudrate == 1_000_000
+    cost(port, joined(port), screens(1))
+
+
+def test_close_leaves_the_device_at_its_first_rate_and_the_port_closed() -> None:
+    port = SimulatedPort()
+    with joined(port, baudrate=500_000) as link:
+        link.write([(True, b"\1")])
+    assert not port.is_open
+    port.read()
+    assert port.device.baudrate == 115_200
+    link.close()
+
+
+def test_the_answer_to_hello_is_read_whole() -> None:
+    link = joined(SimulatedPort())
+    assert (link.device.controller, link.device.width, link.device.height) == ("ssd1306", 128, 64)
+    assert link.device.bauds == UNO.bauds
+    assert 0 < link.ping() < 0.01
+
+
+@pytest.mark.parametrize("baudrate", [0, -9600])
+def test_a_rate_that_is_no_rate(baudrate: int) -> None:
+    with pytest.raises(ValueError, match="baudrate"):
+        joined(SimulatedPort(), baudrate=baudrate)
