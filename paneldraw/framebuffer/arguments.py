@@ -63,6 +63,8 @@ def real(name: str, value: Any) -> int | float:
         number = float(value)
     except (TypeError, ValueError):
         raise TypeError(f"{name} must be a number, not {type(value).__name__}") from None
+    except OverflowError:
+        raise ValueError(f"{name} must be an int or within the range of floats") from None
     if not math.isfinite(number):
         raise ValueError(f"{name} must be finite, not {number}")
     return number
@@ -71,13 +73,22 @@ def real(name: str, value: Any) -> int | float:
 def whole(name: str, value: Any) -> int:
     """The whole number nearest to `value`, halves upward."""
     number = real(name, value)
-    return number if isinstance(number, int) else math.floor(number + 0.5)
+    return number if isinstance(number, int) else _nearest(number)
 
 
 def to_256ths(name: str, value: Any) -> int:
     """The nearest number of 256ths of a pixel, halves upward."""
     number = real(name, value)
-    return number * 256 if isinstance(number, int) else math.floor(number * 256 + 0.5)
+    if isinstance(number, int):
+        return number * 256
+    fraction, whole_pixels = math.modf(number)
+    return int(whole_pixels) * 256 + _nearest(fraction * 256)
+
+
+def _nearest(number: float) -> int:
+    # Not floor(number + 0.5): that sum may itself be rounded.
+    below = math.floor(number)
+    return below + (number - below >= 0.5)
 
 
 def size(name: str, value: Any) -> int:
@@ -122,7 +133,7 @@ def line_width(width: Any) -> int:
     """A line's width in 256ths of a pixel."""
     fixed = to_256ths("width", width)
     if fixed <= 0:
-        raise ValueError(f"width must be above 0 pixels, not {width}")
+        raise ValueError(f"width must be at least 1/256 of a pixel, not {width}")
     return fixed
 
 
@@ -145,10 +156,14 @@ def integers(table: NDArray[Any], unit: int, limit: int) -> NDArray[np.int64] | 
     if table.dtype.kind == "O":
         return None
     if table.dtype.kind == "f":
-        table = np.floor(table * float(unit) + 0.5)
-        unit = 1
+        table = table.astype(np.float64)
     if len(table) and (table.max() > limit // unit or table.min() < -(limit // unit)):
         return None
+    if table.dtype.kind == "f":
+        scaled = table * unit
+        table = np.floor(scaled)
+        table += scaled - table >= 0.5
+        unit = 1
     table = np.ascontiguousarray(table, np.int64)
     return table if unit == 1 else table * unit
 

@@ -104,7 +104,9 @@ class Lines:
         row: cython.Py_ssize_t
         first: cython.Py_ssize_t = min(max(x, 0), LARGEST)
         last: cython.Py_ssize_t = min(max(x + w, 0), LARGEST)
-        for row in range(min(max(y, 0), LARGEST), min(max(y + h, 0), LARGEST)):
+        top: cython.Py_ssize_t = min(max(y, self.surface.top), self.surface.bottom)
+        bottom: cython.Py_ssize_t = max(min(y + h, self.surface.bottom), top)
+        for row in range(top, bottom):
             self.surface.span(row, first, last)
 
     def line(

@@ -110,7 +110,7 @@ def bresenham_far(surface: Surface, x1: Any, y1: Any, x2: Any, y2: Any) -> Any:
     low, high = (surface.top, surface.bottom) if steep else (surface.left, surface.right)
     limit = max(surface.right, surface.bottom)
     for x in range(max(x1, low), min(x2 + 1, high)):
-        moved = (2 * (x - x1) * abs(dy) + dx) // (2 * dx)
+        moved = (2 * (x - x1) * abs(dy) + dx) // (2 * dx) if dx else 0
         y = y1 + moved if dy >= 0 else y1 - moved
         if 0 <= y < limit:
             surface.point(y if steep else x, x if steep else y)

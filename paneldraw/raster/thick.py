@@ -252,6 +252,6 @@ def slab_far(
                     b = min(b, -((-high - slope * offset) // (512 * slope)))
                 elif not low <= 0 < high:
                     b = a
-            spans[2 * row] = a
-            spans[2 * row + 1] = max(a, b)
+            # Either may be beyond what a C integer holds; of an empty span the place does not matter.
+            spans[2 * row], spans[2 * row + 1] = (a, b) if a < b else (0, 0)
         paint(surface, y, spans, n, n)

@@ -1,0 +1,112 @@
+"""What each primitive is, in exact arithmetic and without haste. The tests compare the raster with this.
+
+A shape is an array of shape (height, width) that says how much of each pixel it covers: a number of reference points,
+or a bool. Coordinates are ints of any size and fractions.
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from math import ceil, floor
+
+import numpy as np
+
+HALF = Fraction(1, 2)
+
+
+def nearest(value):
+    """The nearest whole number, halves upward."""
+    return floor(Fraction(value) + HALF)
+
+
+def bresenham(width, height, x1, y1, x2, y2):
+    """In each column (in each row, if the line is steep) the pixel nearest to the true line.
+
+    Where two are equally near, the one further along, seen from the end point on the left (at the top, if steep).
+    """
+    x1, y1, x2, y2 = map(nearest, (x1, y1, x2, y2))
+    if abs(x2 - x1) < abs(y2 - y1):
+        return bresenham(height, width, y1, x1, y2, x2).T
+    if x2 < x1:
+        x1, y1, x2, y2 = x2, y2, x1, y1
+    lit = np.zeros((height, width), bool)
+    for x in range(max(x1, 0), min(x2, width - 1) + 1):
+        true = Fraction(y1) if x1 == x2 else y1 + Fraction((y2 - y1) * (x - x1), x2 - x1)
+        y = floor(true + HALF) if y1 <= y2 else ceil(true - HALF)
+        if 0 <= y < height:
+            lit[y, x] = True
+    return lit
+
+
+def rectangle(width, height, x1, y1, x2, y2, thickness, cap="square", n=1, reference="center"):
+    """How many of the n x n reference points of each pixel are in the rectangle around the line.
+
+    Of the points on an edge, those belong that have the inside to their right, or, on a horizontal edge, below.
+    """
+    unit = 512 * n  # of these one pixel: every number below is whole
+    x1, y1, x2, y2 = (nearest(Fraction(value) * 256) * 2 * n for value in (x1, y1, x2, y2))
+    half = nearest(Fraction(thickness) * 256) * n
+    xs, ys = reference_points(width, n, reference), reference_points(height, n, reference)
+    dx, dy = (x2 - x1, y2 - y1) if (x1, y1) != (x2, y2) else (unit, 0)
+    along = dx * (xs[None, :] - x1) + dy * (ys[:, None] - y1)
+    across = dx * (ys[:, None] - y1) - dy * (xs[None, :] - x1)
+    squared = dx * dx + dy * dy
+    end = dx * (x2 - x1) + dy * (y2 - y1)
+    # Half a width, times the length of (dx, dy), is the root of this.
+    side = half * half * squared
+    reach = side if cap == "square" else 0
+    inside = (
+        at_most_root(across, side, (dy, -dx))
+        & at_most_root(-across, side, (-dy, dx))
+        & at_most_root(along - end, reach, (-dx, -dy))
+        & at_most_root(-along, reach, (dx, dy))
+    )
+    return inside.reshape(height, n, width, n).sum(axis=(1, 3))
+
+
+def reference_points(pixels, n, reference):
+    """Where the reference points of the sub-pixels are along one axis, in 512 n-ths of a pixel."""
+    first = -256 * n + (256 if reference == "center" else 0)
+    return np.array([first + 512 * i for i in range(pixels * n)], object)
+
+
+def at_most_root(values, square, inward):
+    """Whether ``value < sqrt(square)``, or on the edge itself, if it is one whose points belong to the inside."""
+    below = (values < 0) | (values * values < square)
+    on_edge = (values >= 0) & (values * values == square)
+    return below | on_edge if inward[0] > 0 or (inward[0] == 0 and inward[1] > 0) else below
+
+
+def circle(width, height, x, y, r, fill=False):
+    """In each column of the top and bottom octants, in each row of the others, the pixel nearest to the true one."""
+    x, y, r = map(nearest, (x, y, r))
+    lit = np.zeros((height, width), bool)
+    for row in range(height):
+        for column in range(width):
+            low, high = sorted((abs(column - x), abs(row - y)))
+            # Twice the distance of the true circle from the axis at `low`, squared; no half is ever a whole root.
+            true = 4 * (r * r - low * low)
+            reached = (2 * high - 1) ** 2 <= true if high else r == 0 or fill
+            lit[row, column] = reached and (fill or true < (2 * high + 1) ** 2)
+    return lit
+
+
+def painted(before, covered, full, level, op, depth):
+    """The levels after painting a shape that covers `covered` of `full` parts of each pixel over `before`."""
+    levels = np.empty_like(before)
+    for place, old in np.ndenumerate(before):
+        levels[place] = one_painted(int(old), Fraction(int(covered[place]), full), level, op, depth)
+    return levels
+
+
+def one_painted(old, coverage, level, op, depth):
+    if depth == 1:
+        coverage = floor(coverage + HALF)
+    if coverage == 0:
+        return old
+    share = nearest(level * coverage)
+    if op == "over":
+        return nearest(old * (1 - coverage) + level * coverage)
+    if op == "clear":
+        return nearest(old * (1 - coverage))
+    return {"xor": old ^ share, "add": min(old + share, 2**depth - 1), "max": max(old, share)}[op]
