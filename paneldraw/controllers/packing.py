@@ -6,7 +6,11 @@ from __future__ import annotations
 import cython
 
 
-def pack_pages(levels: cython.const[cython.uchar][:, :], threshold: cython.uchar, packed: cython.uchar[:, ::1]) -> None:
+def pack_pages(
+    levels: cython.const[cython.uchar][:, :],  # type: ignore[valid-type]
+    threshold: cython.uchar,
+    packed: cython.uchar[:, ::1],
+) -> None:
     """Pack rows of levels into pages: a byte is eight rows of a column, the topmost in the lowest bit.
 
     Parameters

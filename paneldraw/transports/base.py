@@ -59,7 +59,7 @@ class Plan:
 
     def __iter__(self) -> Iterator[tuple[int, memoryview]]:
         """Yield each message's kind and payload."""
-        view = memoryview(self.buffer)
+        view = self.buffer.data
         for start, stop in zip(self.starts[: self.count].tolist(), self.stops[: self.count].tolist(), strict=True):
             yield view[start], view[start + 1 : stop]
 

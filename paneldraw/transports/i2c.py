@@ -176,7 +176,7 @@ class _Messages:
             "offsets": [message.addr.offset, message.flags.offset, message.len.offset, message.buf.offset],
             "itemsize": ctypes.sizeof(message),
         }
-        fields = np.zeros(count, np.dtype(layout))  # type: ignore[call-overload]
+        fields: npt.NDArray[Any] = np.zeros(count, np.dtype(layout))  # type: ignore[call-overload]
         fields["addr"] = self._address
         self._keep = fields
         self._lengths, self._addresses = fields["len"], fields["buf"]
