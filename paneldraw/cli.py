@@ -1,0 +1,335 @@
+"""The ``paneldraw`` command: demos, pictures and text on a panel, and what there is to be found about one."""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import io
+import math
+import os
+import signal
+import sys
+import textwrap
+from collections.abc import Callable, Iterator, Sequence
+from pathlib import Path
+from types import FrameType
+from typing import TYPE_CHECKING, NoReturn
+
+from .errors import PanelError
+
+if TYPE_CHECKING:
+    from PIL.Image import Image
+
+    from .framebuffer import Framebuffer
+    from .panel import Panel
+    from .text import Font
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run the command.
+
+    Parameters
+    ----------
+    argv : sequence of str, optional
+        The arguments. Default: those that the process was started with.
+
+    Returns
+    -------
+    int
+        The exit code: 0, 1 for an error, 128 + n after signal n. Wrong usage leaves by ``SystemExit`` with code 2.
+    """
+    parser = _parser()
+    options = parser.parse_args(argv)
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="replace")
+    try:
+        with _signals_unwind():
+            code: int = options.run(options)
+            sys.stdout.flush()
+            return code
+    except _Interrupted as stop:
+        return 128 + stop.number
+    except BrokenPipeError:
+        # Whoever read the output has left; nothing may be written at exit either.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 1
+    except (PanelError, OSError, ValueError, _UserError) as error:
+        print(f"paneldraw: {_one_line(error)}", file=sys.stderr)
+        return 1
+
+
+class _UserError(Exception):
+    """Something that the person at the keyboard can put right, in one line."""
+
+
+class _Interrupted(BaseException):
+    """A signal asks the command to stop; whatever is open closes on the way out."""
+
+    def __init__(self, number: int) -> None:
+        self.number = number
+
+
+@contextlib.contextmanager
+def _signals_unwind() -> Iterator[None]:
+    """Make SIGINT, SIGTERM and SIGHUP unwind the stack, so that terminal and panel are left in order."""
+
+    numbers = [getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name)]
+
+    def stop(number: int, frame: FrameType | None) -> NoReturn:
+        for each in numbers:
+            signal.signal(each, signal.SIG_IGN)  # a second one would cut the way out short
+        raise _Interrupted(number)
+
+    before = {number: signal.signal(number, stop) for number in numbers}
+    try:
+        yield
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
+
+
+def _one_line(error: BaseException) -> str:
+    if type(error) is FileNotFoundError and error.filename:
+        return f"there is no file {error.filename}; check the path"
+    text = str(error)
+    if isinstance(error, OSError) and error.strerror:
+        text = f"{error.filename}: {error.strerror}" if error.filename else error.strerror
+    return " ".join(text.split()) or type(error).__name__
+
+
+class _Parser(argparse.ArgumentParser):
+    def error(self, message: str) -> NoReturn:
+        """Say what is wrong in one line, and where help is."""
+        self.exit(2, f"{self.prog}: {' '.join(message.split())}; see {self.prog} --help\n")
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = _Parser(prog="paneldraw", description="Draw on OLED, LCD and LED panels, real or simulated.")
+    parser.add_argument("--version", action=_Version)
+    commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
+    for add in (_add_demo, _add_show, _add_text, _add_detect, _add_info):
+        add(commands)
+    return parser
+
+
+class _Version(argparse.Action):
+    def __init__(self, option_strings: Sequence[str], dest: str) -> None:
+        super().__init__(option_strings, dest, nargs=0, help="print the version and leave")
+
+    def __call__(self, parser: argparse.ArgumentParser, *_: object) -> NoReturn:
+        from . import diagnostics
+
+        parser.exit(0, f"paneldraw {diagnostics.version('paneldraw')}\n")
+
+
+if TYPE_CHECKING:
+    _Commands = argparse._SubParsersAction[_Parser]
+
+
+def _command(
+    commands: _Commands, name: str, run: Callable[[argparse.Namespace], int], help: str, epilog: str | None = None
+) -> argparse.ArgumentParser:
+    """Add a command; every one takes ``--panel``."""
+    parser = commands.add_parser(
+        name, help=help, description=help, epilog=epilog, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument(
+        "--panel",
+        metavar="URL",
+        help="such as i2c://1/0x3c?size=128x32 or sim://ssd1306; default: $PANELDRAW_PANEL, else a simulated SSD1306",
+    )
+    parser.set_defaults(run=run)
+    return parser
+
+
+def _positive(kind: Callable[[str], float]) -> Callable[[str], float]:
+    def convert(text: str) -> float:
+        value = kind(text)
+        if not value > 0:
+            raise argparse.ArgumentTypeError(f"{text} is not above 0")
+        return value
+
+    convert.__name__ = "number"
+    return convert
+
+
+# demo
+
+
+def _add_demo(commands: _Commands) -> None:
+    from .demos import DEMOS
+
+    about = "\n".join(f"  {name:6} {what}" for name, what in DEMOS.items())
+    parser = _command(commands, "demo", _demo, "run an animated demo", f"demos:\n{about}")
+    parser.add_argument("name", nargs="?", default="scene", choices=list(DEMOS), metavar="NAME", help="default: scene")
+    parser.add_argument("--save", type=_save_path, metavar="FILE", help="write a .gif, or a .png of one moment")
+    length = parser.add_mutually_exclusive_group()
+    length.add_argument(
+        "--seconds", type=_positive(float), metavar="N", help="how long, inf for ever; which moment of a .png (10)"
+    )
+    length.add_argument("--frames", type=_positive(int), metavar="N", help="how many frames, instead of --seconds")
+    parser.add_argument("--fps", type=_positive(float), default=30.0, metavar="N", help="frames a second (30)")
+
+
+def _save_path(text: str) -> Path:
+    path = Path(text)
+    if path.suffix.lower() not in (".gif", ".png"):
+        raise argparse.ArgumentTypeError(f"{text} ends neither in .gif nor in .png")
+    return path
+
+
+def _demo(options: argparse.Namespace) -> int:
+    from . import playback
+    from .demos import find
+
+    frames = options.frames or max(1, (options.seconds or 10.0) * options.fps)
+    if options.save and not math.isfinite(frames):
+        raise _UserError("a file cannot hold an endless demo; give --seconds a number")
+    with _opened(options) as panel:
+        playback.play(find(options.name), panel, options.name, frames=frames, fps=options.fps, save_to=options.save)
+    return 0
+
+
+# show and text
+
+
+def _add_show(commands: _Commands) -> None:
+    parser = _command(commands, "show", _show, "show a picture, as large as fits")
+    parser.add_argument("picture", type=Path, metavar="PICTURE", help="a file that Pillow reads: PNG, JPEG, GIF, ...")
+    parser.add_argument(
+        "--fit", choices=["contain", "cover", "stretch"], default="contain", help="how it meets the edges (contain)"
+    )
+    parser.add_argument(
+        "--dither", choices=["none", "bayer", "floyd-steinberg"], default="floyd-steinberg", help="(floyd-steinberg)"
+    )
+    parser.add_argument("--invert", action="store_true", help="swap light and dark")
+
+
+def _show(options: argparse.Namespace) -> int:
+    from PIL import ImageOps
+
+    picture = _read_picture(options.picture)
+    with _opened(options) as panel:
+        fb = panel.framebuffer()
+        size = (fb.width, fb.height)
+        if options.fit == "stretch":
+            picture = picture.resize(size)
+        else:
+            picture = (ImageOps.pad if options.fit == "contain" else ImageOps.fit)(picture, size)
+        if options.invert:
+            picture = ImageOps.invert(picture)
+        fb.image(picture, 0, 0, dither=None if options.dither == "none" else options.dither)
+        _present(panel, fb, str(options.picture))
+    return 0
+
+
+def _read_picture(path: Path) -> Image:
+    """Read a picture as grey levels, upright, what is transparent as black."""
+    from PIL import Image, ImageOps, UnidentifiedImageError
+
+    try:
+        with Image.open(path) as file:
+            upright = ImageOps.exif_transpose(file).convert("RGBA")
+    except UnidentifiedImageError:
+        raise _UserError(f"{path} is no picture that Pillow reads; convert it to PNG or JPEG") from None
+    except FileNotFoundError:
+        raise
+    except (OSError, SyntaxError, ValueError, Image.DecompressionBombError) as error:
+        raise _UserError(f"cannot read {path}: {_one_line(error)}; is the file whole?") from error
+    return Image.alpha_composite(Image.new("RGBA", upright.size, "black"), upright).convert("L")
+
+
+def _add_text(commands: _Commands) -> None:
+    parser = _command(commands, "text", _text, "show a text in the middle of the panel")
+    parser.add_argument("text", nargs="+", metavar="TEXT", help="words, or - for standard input")
+    parser.add_argument("--font", metavar="FILE", help="a TrueType or OpenType font; default: the built-in 6x8 font")
+    size = parser.add_mutually_exclusive_group()
+    size.add_argument("--size", type=_positive(float), metavar="N", help="pixels to the em, for outline fonts (16)")
+    size.add_argument("--scale", type=_positive(int), default=1, metavar="N", help="pixels to a pixel of the font (1)")
+
+
+def _text(options: argparse.Namespace) -> int:
+    words = " ".join(options.text)
+    text = sys.stdin.read().rstrip("\n") if words == "-" else words
+    font = _font(options)
+    with _opened(options) as panel:
+        fb = panel.framebuffer()
+        lines = _wrap(text, font, fb.width)
+        fb.text(lines, (fb.width - 1) // 2, (fb.height - 1) // 2, font=font, anchor="mm")
+        _present(panel, fb, text)
+    return 0
+
+
+def _font(options: argparse.Namespace) -> Font:
+    from .text import Font
+
+    if options.font:
+        font = Font.truetype(options.font, options.size or 16)
+    elif options.size:
+        from PIL import ImageFont
+
+        font = Font.from_pillow(ImageFont.load_default(options.size))
+    else:
+        font = Font.builtin()
+    return font.scaled(options.scale) if options.scale > 1 else font
+
+
+def _wrap(text: str, font: Font, width: int) -> str:
+    """Break lines between words where they would be wider than the panel."""
+    lines: list[str] = []
+    for line in text.split("\n"):
+        taken = ""
+        for word in line.split(" "):
+            longer = f"{taken} {word}" if taken else word
+            if taken and font.measure(longer)[0] > width:
+                lines.append(taken)
+                longer = word
+            taken = longer
+        lines.append(taken)
+    return "\n".join(lines)
+
+
+def _opened(options: argparse.Namespace) -> Panel:
+    from . import open_panel
+
+    return open_panel(options.panel)
+
+
+def _present(panel: Panel, fb: Framebuffer, what: str) -> None:
+    """Show one picture; a simulated panel appears in the terminal."""
+    from . import playback
+
+    report = panel.show(fb)
+    what = textwrap.shorten(" ".join(what.split()), 40)
+    playback.print_panel(panel, f"{what}: {report.wire_bytes} bytes on the wire")
+
+
+# detect and info
+
+
+def _add_detect(commands: _Commands) -> None:
+    _command(commands, "detect", _detect, "look for panels: which addresses answer on which bus")
+
+
+def _detect(options: argparse.Namespace) -> int:
+    from . import diagnostics
+
+    found = diagnostics.detect(options.panel or os.environ.get("PANELDRAW_PANEL"))
+    for line in found.lines:
+        print(line)
+    if not found.panels:
+        raise _UserError(found.advice)
+    return 0
+
+
+def _add_info(commands: _Commands) -> None:
+    _command(commands, "info", _info, "print versions, platform, buses and whether drawing runs compiled")
+
+
+def _info(options: argparse.Namespace) -> int:
+    from . import diagnostics
+
+    for name, value in diagnostics.info(options.panel):
+        print(f"{name + ':':14}{value}")
+    return 0

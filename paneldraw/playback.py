@@ -1,0 +1,143 @@
+"""Runs a demo: on a panel in real time, in the terminal, into a file."""
+
+from __future__ import annotations
+
+import contextlib
+import datetime
+import sys
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from .simulator import SSD1306, Frame, I2CBus, TerminalView, save
+
+if TYPE_CHECKING:
+    from .demos import Demo
+    from .panel import Panel
+
+TEN_PAST_TEN = 10 * 3600 + 9 * 60 + 36.0
+"""Seconds after midnight at which what is saved begins, so that it comes out the same every time."""
+
+PATIENCE = 1.0
+"""Seconds without a word that a person is asked to bear."""
+
+
+class Progress:
+    """Says on stderr how far long work is: one line that counts up in a terminal, a line now and then elsewhere."""
+
+    def __init__(self, what: str) -> None:
+        self._what = what
+        self._live = sys.stderr.isatty()
+        self._next = time.monotonic() + PATIENCE
+        self._said = False
+
+    def __call__(self, done: int, total: float) -> None:
+        if time.monotonic() < self._next:
+            return
+        self._next = time.monotonic() + (0.1 if self._live else 5 * PATIENCE)
+        self._said = True
+        end = "\x1b[K\r" if self._live else "\n"
+        print(f"{self._what}: {done} of {total:.0f} frames", end=end, file=sys.stderr, flush=True)
+
+    def __enter__(self) -> Progress:
+        return self
+
+    def __exit__(self, *exception: object) -> None:
+        if self._said and self._live:
+            print("\x1b[K", end="", file=sys.stderr, flush=True)
+
+
+def simulated(panel: Panel) -> SSD1306 | None:
+    """Return the chip behind a panel if it is a simulated one."""
+    bus = getattr(panel.transport, "bus", None)
+    chip = bus.devices.get(panel.transport.address) if isinstance(bus, I2CBus) else None
+    return chip if isinstance(chip, SSD1306) else None
+
+
+def print_panel(panel: Panel, caption: str) -> None:
+    """Print what a simulated panel shows; of a real one, which a person can see, the caption alone."""
+    chip = simulated(panel)
+    if chip is None:
+        print(caption)
+        return
+    with TerminalView() as view:
+        view.show(chip, caption)
+
+
+def play(demo: Demo, panel: Panel, name: str, *, frames: float, fps: float, save_to: Path | None = None) -> None:
+    """Run a demo on a panel.
+
+    In real time where somebody watches: on a real panel, and on a simulated one in a terminal. Else, and where the
+    frames go to a file, as fast as they can be drawn.
+
+    Parameters
+    ----------
+    demo : callable
+        As `paneldraw.demos.find` returns it.
+    panel : Panel
+        What to draw on.
+    name : str
+        What to call the demo in captions.
+    frames : float
+        How many frames, inf for ever.
+    fps : float
+        Frames a second.
+    save_to : Path, optional
+        A .gif of all frames, or a .png of the last.
+    """
+    chip = simulated(panel)
+    if chip is None:
+        panel.on_close = "clear"
+    real_time = save_to is None and (chip is None or sys.stdout.isatty())
+    still = save_to is not None and save_to.suffix.lower() == ".png"
+    start = _seconds_after_midnight() if real_time else TEN_PAST_TEN
+    fb = panel.framebuffer()
+    recording: list[Frame] = []
+    drawn = total_bytes = 0
+    whole = fb.width * fb.height * fb.depth // 8
+    with contextlib.ExitStack() as stack:
+        view = stack.enter_context(TerminalView()) if chip else None
+        progress = stack.enter_context(Progress("drawing")) if not (chip and sys.stdout.isatty()) else None
+        for index in _paced(int(frames - 1) if still else 0, frames, fps, real_time):
+            demo(fb, start + index / fps)
+            sent = panel.show(fb).wire_bytes
+            drawn, total_bytes = drawn + 1, total_bytes + sent
+            if save_to:
+                pixels = (chip.pixels if chip else fb.pixels).copy()
+                recording.append(Frame(pixels, index / fps, sent, max_level=fb.max_level))
+            caption = f"{name}: {_count(drawn, 'frame')}, {total_bytes / drawn:.0f} bytes each; a whole one has {whole}"
+            if view:
+                view.show(chip, caption)
+            if progress:
+                progress(index + 1, frames)
+    if chip is None:
+        print(caption)
+    if save_to:
+        with Progress("writing") as progress:
+            save(recording, save_to, progress=progress)
+        print(f"wrote {save_to}: {_count(drawn, 'frame')}")
+
+
+def _paced(first: int, frames: float, fps: float, real_time: bool) -> Iterator[int]:
+    """Count frames, in real time at `fps`; those that come too late are left out."""
+    start = time.monotonic()
+    index = first
+    while index < frames:
+        yield index
+        index += 1
+        if real_time:
+            ahead = start + (index - first) / fps - time.monotonic()
+            if ahead > 0:
+                time.sleep(ahead)
+            else:
+                index += int(-ahead * fps)
+
+
+def _seconds_after_midnight() -> float:
+    now = datetime.datetime.now()
+    return (now - now.replace(hour=0, minute=0, second=0, microsecond=0)).total_seconds()
+
+
+def _count(number: int, what: str) -> str:
+    return f"{number} {what}" if number == 1 else f"{number} {what}s"
