@@ -120,7 +120,8 @@ class _Version(argparse.Action):
     def __call__(self, parser: argparse.ArgumentParser, *_: object) -> NoReturn:
         from . import diagnostics
 
-        parser.exit(0, f"paneldraw {diagnostics.version('paneldraw')}\n")
+        print(f"paneldraw {diagnostics.version('paneldraw')}")
+        parser.exit()
 
 
 if TYPE_CHECKING:
@@ -210,6 +211,8 @@ def _show(options: argparse.Namespace) -> int:
     from PIL import ImageOps
 
     picture = _read_picture(options.picture)
+    if options.invert:
+        picture = ImageOps.invert(picture)
     with _opened(options) as panel:
         fb = panel.framebuffer()
         size = (fb.width, fb.height)
@@ -217,8 +220,6 @@ def _show(options: argparse.Namespace) -> int:
             picture = picture.resize(size)
         else:
             picture = (ImageOps.pad if options.fit == "contain" else ImageOps.fit)(picture, size)
-        if options.invert:
-            picture = ImageOps.invert(picture)
         fb.image(picture, 0, 0, dither=None if options.dither == "none" else options.dither)
         _present(panel, fb, str(options.picture))
     return 0
@@ -291,7 +292,7 @@ def _wrap(text: str, font: Font, width: int) -> str:
 
 
 def _opened(options: argparse.Namespace) -> Panel:
-    from . import open_panel
+    from .panel import open_panel
 
     return open_panel(options.panel)
 

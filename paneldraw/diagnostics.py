@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 from urllib.parse import urlsplit
 
 from .errors import TransportError
+from .transports import I2CTransport
 
 if TYPE_CHECKING:
     from .panel import Panel
@@ -61,7 +62,7 @@ def info(url: str | None = None) -> Iterator[tuple[str, str]]:
     if url is None:
         yield "panel", os.environ.get("PANELDRAW_PANEL") or "a simulated SSD1306 ($PANELDRAW_PANEL is not set)"
     else:
-        from . import open_panel
+        from .panel import open_panel
 
         with open_panel(url) as panel:
             yield "panel", describe(panel)
@@ -120,10 +121,11 @@ def detect(url: str | None = None) -> Found:
     found = Found()
     parts = urlsplit(url or "i2c://")
     if parts.scheme == "sim":
-        from . import open_panel
+        from .panel import open_panel
 
         with open_panel(url) as panel:
-            _search(found, panel.transport.bus, "the simulated bus", "sim://")
+            if isinstance(panel.transport, I2CTransport):
+                _search(found, panel.transport.bus, "the simulated bus", "sim://")
     elif parts.scheme == "i2c":
         asked = f"/dev/i2c-{parts.netloc}" if parts.netloc else re.sub("/[^-/]+$", "", parts.path)
         for path, name in [(asked, _adapter_name(Path(asked)))] if asked else i2c_buses():
@@ -137,8 +139,6 @@ def detect(url: str | None = None) -> Found:
 
 
 def _search_device(found: Found, path: str, name: str, *, asked: bool) -> None:
-    from .transports import I2CTransport
-
     number = path.rpartition("-")[2]
     title = f"bus {number} ({name})"
     if name.startswith("SMBus") and not asked:
