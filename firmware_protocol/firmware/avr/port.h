@@ -1,0 +1,40 @@
+/* An ATmega328P (Arduino Uno, Nano) with the panel on its I2C pins. */
+#ifndef PANELDRAW_PORT_H
+#define PANELDRAW_PORT_H
+
+#include <avr/interrupt.h>
+#include <avr/pgmspace.h>
+#include <util/crc16.h>
+
+#define PD_RING_SIZE 512
+#define PD_TX_SIZE 128
+#define PD_MAX_PAYLOAD 250
+
+#ifndef PD_ADDRESS
+#define PD_ADDRESS 0x3C
+#endif
+#ifndef PD_CONTROLLER
+#define PD_CONTROLLER "ssd1306"
+#define PD_WIDTH 128
+#define PD_HEIGHT 64
+#endif
+#define PD_FIRMWARE "paneldraw-atmega328p 1.0"
+/* What 16 MHz divides into exactly comes first; 115200 is 2.1 % fast, which 8N1 bears. */
+#define PD_RATES {500000UL, 1000000UL, 250000UL, 115200UL}
+#define PD_RESET_LINE 1
+#ifndef PD_CONTROL_EACH
+#define PD_CONTROL_EACH 0
+#endif
+
+#define PD_FLASH PROGMEM
+#define PD_READ_FLASH(p) pgm_read_byte(p)
+#define PD_READ_FLASH_LONG(p) pgm_read_dword(p)
+#define PD_GUARDED(statement) \
+    do { \
+        cli(); \
+        statement; \
+        sei(); \
+    } while (0)
+#define pd_crc(crc, byte) _crc_xmodem_update(crc, byte)
+
+#endif

@@ -1,0 +1,27 @@
+/* Between the state machine and the tokens of a WRITE. */
+#ifndef PANELDRAW_BUS_H
+#define PANELDRAW_BUS_H
+
+#include "paneldraw.h"
+
+enum pd_bus_state { PD_BUS_IDLE, PD_BUS_BUSY, PD_BUS_DONE };
+
+struct pd_bus {
+    uint16_t at, end;     /* the tokens, in the ring */
+    uint8_t left;         /* bytes left of the token */
+    uint8_t value;        /* the byte that is repeated */
+    uint8_t run;          /* what the transaction carries */
+    bool repeats;         /* whether the token is a repeat */
+    bool control;         /* whether a control byte is due */
+    volatile uint8_t state;
+    volatile uint8_t fault;
+    volatile uint8_t steps; /* counts on while the bus moves */
+};
+extern struct pd_bus pd_bus;
+
+/* Whether the tokens from `at` to `end` are whole. */
+bool pd_tokens_valid(uint16_t at, uint16_t end);
+/* Write them to the panel; with none, see whether the panel answers. */
+void pd_bus_write(uint16_t at, uint16_t end);
+
+#endif

@@ -1,0 +1,521 @@
+/* The state machine: frames in, work in order, replies out. */
+#include "bus.h"
+
+#define BASE_RATE 115200UL
+#define PROBATION_MS 300
+#define DOUBT_MS 1500
+#define BUS_PATIENCE_MS 25
+#define ENVELOPE 4
+
+enum kind {
+    HELLO = 0x01,
+    POLL = 0x02,
+    WRITE = 0x10,
+    WRITE_END = 0x11,
+    BAUD = 0x12,
+    RESET = 0x13,
+    HELLO_REPLY = 0x81,
+    STATUS = 0x82,
+    BOOT = 0x83,
+    ACK = 0x84,
+    NAK = 0x85,
+};
+
+enum owed { OWE_ACK = 1, OWE_NAK = 2, OWE_STATUS = 4, OWE_HELLO = 8, OWE_BOOT = 16 };
+
+struct frame {
+    uint8_t kind; /* 0 for none */
+    uint8_t seq;
+    uint16_t start, payload, end; /* in the ring */
+};
+
+struct pd_receiver pd_rx;
+
+/* The frame that is coming in. */
+static struct {
+    uint16_t read, start, write, length, crc;
+    uint8_t block, left; /* the COBS block, and how many of its bytes are to come */
+    bool damaged;
+} in;
+
+static struct {
+    uint8_t ring[PD_TX_SIZE];
+    volatile uint8_t head, tail;
+    uint8_t at, code, block; /* the frame that is being written */
+    uint16_t crc;
+} out;
+
+static struct {
+    struct frame running, ready;
+    uint8_t owed, expected, done, fault, version, token, reason, cause;
+    bool armed, present, doubtful;
+    uint16_t boot, damaged, line_errors, revert_at, bus_until;
+    uint8_t bus_steps;
+    uint32_t rate, next_rate;
+    uint8_t nonce[4];
+} link;
+
+static const uint32_t rates[] PD_FLASH = PD_RATES;
+static const char controller[] PD_FLASH = PD_CONTROLLER;
+static const char firmware[] PD_FLASH = PD_FIRMWARE;
+#define RATES (sizeof rates / sizeof rates[0])
+
+static inline uint8_t at(uint16_t position)
+{
+    return pd_rx.ring[position & PD_RING_MASK];
+}
+
+/* -- replies */
+
+static void put_raw(uint8_t byte)
+{
+    out.crc = pd_crc(out.crc, byte);
+    if (byte) {
+        out.ring[out.at & (PD_TX_SIZE - 1)] = byte;
+        out.block++;
+    } else {
+        out.ring[out.code & (PD_TX_SIZE - 1)] = out.block;
+        out.code = out.at;
+        out.block = 1;
+    }
+    out.at++;
+}
+
+static void put(uint16_t value, uint8_t bytes)
+{
+    for (; bytes; bytes--, value >>= 8)
+        put_raw((uint8_t)value);
+}
+
+static void put_name(const char *name, uint8_t size)
+{
+    put_raw(size - 1);
+    for (uint8_t i = 0; i < size - 1; i++)
+        put_raw(PD_READ_FLASH(name + i));
+}
+
+static void begin(uint8_t kind, uint8_t seq)
+{
+    out.code = out.head;
+    out.at = out.code + 1;
+    out.block = 1;
+    out.crc = 0xFFFF;
+    put_raw(kind);
+    put_raw(seq);
+}
+
+static void finish(void)
+{
+    uint16_t crc = out.crc;
+    put_raw(crc >> 8);
+    put_raw((uint8_t)crc);
+    out.ring[out.code & (PD_TX_SIZE - 1)] = out.block;
+    out.ring[out.at & (PD_TX_SIZE - 1)] = 0;
+    out.head = out.at + 1;
+    pd_port_transmit();
+}
+
+bool pd_transmit(uint8_t *byte)
+{
+    uint8_t tail = out.tail;
+    if (tail == out.head)
+        return false;
+    *byte = out.ring[tail & (PD_TX_SIZE - 1)];
+    out.tail = tail + 1;
+    return true;
+}
+
+static void say_hello(void)
+{
+    begin(HELLO_REPLY, 0);
+    for (uint8_t i = 0; i < 4; i++)
+        put_raw(link.nonce[i]);
+    put_raw(link.version);
+    put_raw(1);
+    put_raw(1);
+    put(link.boot, 2);
+    put_raw(link.cause);
+    put_raw(1);
+    put_raw(PD_ADDRESS);
+    put_raw(1 | link.present << 1 | PD_RESET_LINE << 2);
+    put_raw(1);
+    put(PD_MAX_PAYLOAD, 2);
+    put(PD_WINDOW, 2);
+    put(PD_WIDTH, 2);
+    put(PD_HEIGHT, 2);
+    put_raw(RATES);
+    for (uint8_t i = 0; i < RATES; i++) {
+        uint32_t rate = PD_READ_FLASH_LONG(rates + i);
+        put((uint16_t)rate, 2);
+        put((uint16_t)(rate >> 16), 2);
+    }
+    put_name(controller, sizeof controller);
+    put_name(firmware, sizeof firmware);
+    finish();
+}
+
+static uint16_t counter(volatile uint16_t *value)
+{
+    uint16_t now;
+    PD_GUARDED(now = *value);
+    return now;
+}
+
+static void say_status(void)
+{
+    begin(STATUS, link.token);
+    put_raw(link.expected);
+    put_raw(link.fault);
+    put(link.boot, 2);
+    put(link.damaged, 2);
+    put(counter(&pd_rx.overflows), 2);
+    put(counter(&pd_rx.line_errors), 2);
+    finish();
+}
+
+static void say_short(uint8_t kind, uint8_t seq, uint8_t value)
+{
+    begin(kind, seq);
+    put_raw(value);
+    finish();
+}
+
+static void reply(void)
+{
+    uint8_t room = PD_TX_SIZE - (uint8_t)(out.head - out.tail);
+    uint8_t owed = link.owed;
+    if (!owed || room < (owed & OWE_HELLO ? PD_TX_SIZE : 24))
+        return;
+    if (owed & OWE_ACK) {
+        say_short(ACK, link.done, link.fault);
+        owed &= ~OWE_ACK;
+    } else if (owed & OWE_NAK) {
+        say_short(NAK, link.expected, link.reason);
+        owed &= ~OWE_NAK;
+    } else if (owed & OWE_STATUS) {
+        say_status();
+        owed &= ~OWE_STATUS;
+    } else if (owed & OWE_HELLO) {
+        say_hello();
+        owed &= ~OWE_HELLO;
+    } else {
+        begin(BOOT, 0);
+        put(link.boot, 2);
+        put_raw(link.cause);
+        finish();
+        owed = 0;
+    }
+    link.owed = owed;
+}
+
+/* -- work, in order */
+
+static void fail(uint8_t fault)
+{
+    if (!link.fault)
+        link.fault = fault;
+}
+
+/* Frees the ring up to the oldest byte that is still needed. */
+static void release(void)
+{
+    uint16_t tail = link.running.kind ? link.running.start : link.ready.kind ? link.ready.start : in.start;
+    PD_GUARDED(pd_rx.tail = tail);
+}
+
+static void complete(void)
+{
+    if (link.running.kind == HELLO) {
+        link.owed |= OWE_HELLO;
+    } else if (link.running.kind != POLL) {
+        link.done = link.running.seq;
+        link.owed |= OWE_ACK;
+    }
+    link.running.kind = 0;
+    release();
+}
+
+static void change_rate(const struct frame *frame)
+{
+    uint32_t rate = 0;
+    if (((frame->end - frame->payload) & PD_RING_MASK) < 4) {
+        fail(PD_MALFORMED);
+        return;
+    }
+    for (uint8_t i = 4; i--;)
+        rate = rate << 8 | at(frame->payload + i);
+    for (uint8_t i = 0; i < RATES; i++)
+        if (PD_READ_FLASH_LONG(rates + i) == rate) {
+            link.next_rate = rate;
+            return;
+        }
+    fail(PD_BAUD_NOT_OFFERED);
+}
+
+/* Does what a frame asks; true if that goes on in the background. */
+static bool execute(const struct frame *frame)
+{
+    switch (frame->kind) {
+    case HELLO:
+        link.fault = PD_OK;
+        link.done = 0xFF;
+        for (uint8_t i = 0; i < 4; i++)
+            link.nonce[i] = at(frame->payload + i);
+        pd_bus_write(0, 0);
+        return true;
+    case POLL:
+        link.token = frame->seq;
+        link.armed = true;
+        link.owed |= OWE_STATUS;
+        return false;
+    case WRITE:
+    case WRITE_END:
+        if (link.fault || frame->payload == frame->end)
+            return false;
+        if (!pd_tokens_valid(frame->payload, frame->end)) {
+            fail(PD_MALFORMED);
+            return false;
+        }
+        pd_bus_write(frame->payload, frame->end);
+        return true;
+    case BAUD:
+        if (!link.fault)
+            change_rate(frame);
+        return false;
+    case RESET:
+        if (frame->payload == frame->end) {
+            fail(PD_MALFORMED);
+            return false;
+        }
+        link.fault = PD_OK;
+        if (at(frame->payload) & 1)
+            pd_port_reset_panel();
+        return false;
+    default:
+        fail(PD_UNKNOWN_KIND);
+        return false;
+    }
+}
+
+/* The next frame need not wait for an acknowledgement to be sent, unless it changes what that would say. */
+static bool may_begin(void)
+{
+    uint8_t kind = link.ready.kind;
+    uint8_t bearable = kind == WRITE || kind == WRITE_END ? OWE_ACK : 0;
+    return kind && !link.next_rate && !(link.owed & ~bearable);
+}
+
+static void work(uint16_t now)
+{
+    if (link.running.kind) {
+        if (pd_bus.state == PD_BUS_BUSY) {
+            if (link.bus_steps != pd_bus.steps) {
+                link.bus_steps = pd_bus.steps;
+                link.bus_until = now + BUS_PATIENCE_MS;
+                return;
+            }
+            if ((int16_t)(now - link.bus_until) < 0)
+                return;
+            pd_port_bus_abort();
+            pd_bus_done(PD_BUS_STUCK);
+        }
+        pd_bus.state = PD_BUS_IDLE;
+        if (link.running.kind == HELLO)
+            link.present = pd_bus.fault == PD_OK;
+        else
+            fail(pd_bus.fault);
+        complete();
+    }
+    if (may_begin()) {
+        link.running = link.ready;
+        link.ready.kind = 0;
+        link.bus_steps = pd_bus.steps - 1;
+        if (!execute(&link.running))
+            complete();
+    }
+}
+
+/* -- frames */
+
+static void doubt(uint16_t now, uint16_t patience)
+{
+    if (link.rate != BASE_RATE && !link.doubtful) {
+        link.doubtful = true;
+        link.revert_at = now + patience;
+    }
+}
+
+static void queue(uint8_t kind, uint8_t seq)
+{
+    link.ready.kind = kind;
+    link.ready.seq = seq;
+    link.ready.start = in.start;
+    link.ready.payload = (in.start + 2) & PD_RING_MASK;
+    link.ready.end = (in.write - 2) & PD_RING_MASK;
+}
+
+static void nak(uint8_t reason)
+{
+    link.armed = false;
+    link.reason = reason;
+    link.owed |= OWE_NAK;
+}
+
+static void greet(void)
+{
+    if (in.length < ENVELOPE + 6)
+        return;
+    link.version = at(in.start + 6) <= 1 && at(in.start + 7) >= 1;
+    link.expected = 0;
+    link.armed = true;
+    queue(HELLO, 0);
+}
+
+static void take_sequenced(uint8_t kind, uint8_t seq)
+{
+    uint8_t ahead = seq - link.expected;
+    if (ahead >= 128) {
+        link.owed |= OWE_ACK;
+    } else if (ahead) {
+        if (link.armed)
+            nak(2);
+    } else {
+        link.expected++;
+        link.armed = true;
+        queue(kind, seq);
+    }
+}
+
+/* A whole frame lies between in.start and in.write. */
+static void take_frame(void)
+{
+    uint8_t kind = at(in.start);
+    uint8_t seq = at(in.start + 1);
+    link.doubtful = false;
+    if (kind == HELLO)
+        greet();
+    else if (kind != POLL && (kind & 0xF0) != 0x10)
+        return;
+    else if (!link.version)
+        link.owed |= OWE_BOOT;
+    else if (kind == POLL)
+        queue(POLL, seq);
+    else
+        take_sequenced(kind, seq);
+}
+
+static void begin_frame(void)
+{
+    in.start = in.write = in.read;
+    in.length = 0;
+    in.crc = 0xFFFF;
+    in.block = in.left = 0;
+    in.damaged = false;
+    release();
+}
+
+static void keep(uint8_t byte)
+{
+    if (in.length == PD_MAX_PAYLOAD + ENVELOPE) {
+        in.damaged = true;
+        return;
+    }
+    in.length++;
+    in.crc = pd_crc(in.crc, byte);
+    pd_rx.ring[in.write] = byte;
+    in.write = (in.write + 1) & PD_RING_MASK;
+}
+
+static void end_frame(uint16_t now)
+{
+    if (in.block || in.damaged) {
+        if (in.damaged || in.left || in.length < ENVELOPE || in.crc) {
+            link.damaged++;
+            doubt(now, DOUBT_MS);
+            if (link.version)
+                nak(1);
+        } else {
+            take_frame();
+        }
+    }
+    begin_frame();
+}
+
+static void decode(uint16_t now)
+{
+    uint16_t head;
+    PD_GUARDED(head = pd_rx.head);
+    for (uint8_t burst = 32; burst && in.read != head; burst--) {
+        uint8_t byte = pd_rx.ring[in.read];
+        in.read = (in.read + 1) & PD_RING_MASK;
+        if (!byte) {
+            end_frame(now);
+            return;
+        }
+        if (in.damaged) {
+            /* nothing of it is wanted */
+            in.start = in.write = in.read;
+            if (!(in.read & 15))
+                release();
+        } else if (in.left) {
+            in.left--;
+            keep(byte);
+        } else {
+            if (in.block && in.block != 0xFF)
+                keep(0);
+            in.block = byte;
+            in.left = byte - 1;
+        }
+    }
+}
+
+static void mind_rate(uint16_t now)
+{
+    uint16_t errors = counter(&pd_rx.line_errors);
+    if (errors != link.line_errors) {
+        link.line_errors = errors;
+        doubt(now, DOUBT_MS);
+    }
+    if (link.next_rate && !link.owed && pd_port_transmitted()) {
+        link.rate = link.next_rate;
+        link.next_rate = 0;
+        link.doubtful = false;
+        pd_port_set_rate(link.rate);
+        doubt(now, PROBATION_MS);
+    }
+    if (link.doubtful && (int16_t)(now - link.revert_at) >= 0) {
+        link.doubtful = false;
+        link.rate = BASE_RATE;
+        pd_port_set_rate(BASE_RATE);
+        PD_GUARDED(in.read = pd_rx.head);
+        begin_frame();
+    }
+}
+
+void pd_start(uint16_t boot, uint8_t cause)
+{
+    link.running.kind = link.ready.kind = 0;
+    link.version = link.fault = link.expected = 0;
+    link.done = 0xFF;
+    link.armed = link.doubtful = false;
+    link.damaged = link.line_errors = 0;
+    link.next_rate = 0;
+    link.rate = BASE_RATE;
+    link.boot = boot;
+    link.cause = cause;
+    link.owed = OWE_BOOT;
+    pd_bus.state = PD_BUS_IDLE;
+    pd_rx.overflows = pd_rx.line_errors = 0;
+    out.head = out.tail = 0;
+    pd_rx.head = in.read = 0;
+    begin_frame();
+}
+
+void pd_poll(uint16_t milliseconds)
+{
+    work(milliseconds);
+    reply();
+    mind_rate(milliseconds);
+    if (!link.ready.kind && !link.next_rate && !link.owed)
+        decode(milliseconds);
+}

@@ -1,0 +1,84 @@
+/* The device's end of the serial link (../../PROTOCOL.md): portable, no allocation, no hardware.
+ *
+ * A port supplies port.h (sizes, what the device says of itself, how to keep interrupts out) and the functions named
+ * pd_port_*. It calls pd_start once, pd_poll for ever from its main loop, and the rest from its interrupts.
+ */
+#ifndef PANELDRAW_H
+#define PANELDRAW_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "port.h"
+
+#if PD_RING_SIZE & (PD_RING_SIZE - 1)
+#error "PD_RING_SIZE must be a power of two"
+#endif
+#define PD_RING_MASK (PD_RING_SIZE - 1)
+/* What may come beside the host's credits: HELLO, POLL and delimiters. */
+#define PD_RESERVE 48
+#define PD_WINDOW (PD_RING_SIZE - PD_RESERVE)
+
+enum pd_fault {
+    PD_OK,
+    PD_ADDRESS_NACK,
+    PD_DATA_NACK,
+    PD_BUS_STUCK,
+    PD_MALFORMED,
+    PD_UNKNOWN_KIND,
+    PD_BAUD_NOT_OFFERED,
+};
+
+/* Bytes from the line. A frame is decoded where it lies, and lies there until its last byte is on the panel's bus. */
+struct pd_receiver {
+    uint8_t ring[PD_RING_SIZE];
+    volatile uint16_t head; /* written by the interrupt */
+    volatile uint16_t tail; /* written by pd_poll */
+    volatile uint16_t overflows;
+    volatile uint16_t line_errors;
+};
+extern struct pd_receiver pd_rx;
+
+/* Call with each byte that the line brings. */
+static inline void pd_receive(uint8_t byte)
+{
+    uint16_t at = pd_rx.head;
+    uint16_t next = (at + 1) & PD_RING_MASK;
+    if (next == pd_rx.tail) {
+        pd_rx.overflows++;
+        return;
+    }
+    pd_rx.ring[at] = byte;
+    pd_rx.head = next;
+}
+
+/* Call for each byte that came broken or was overrun. */
+static inline void pd_line_error(void)
+{
+    pd_rx.line_errors++;
+}
+
+void pd_start(uint16_t boot, uint8_t cause);
+void pd_poll(uint16_t milliseconds);
+
+/* The next byte for the line; false if there is none. */
+bool pd_transmit(uint8_t *byte);
+
+/* What the panel's bus has to do next: a byte (00 to FF), or one of these. */
+#define PD_START 0x100 /* end the transaction if there is one, begin another: start, address, write */
+#define PD_STOP 0x200  /* end the transaction and call pd_bus_done */
+uint16_t pd_bus_next(void);
+void pd_bus_done(enum pd_fault fault);
+
+/* Begin to do what pd_bus_next says, in the background or at once. */
+void pd_port_bus_start(void);
+/* Give up what the bus does, free it, and forget it; pd_bus_done is not called. */
+void pd_port_bus_abort(void);
+/* There are bytes to transmit. */
+void pd_port_transmit(void);
+/* Whether the last bit of all that was transmitted is out. */
+bool pd_port_transmitted(void);
+void pd_port_set_rate(uint32_t rate);
+void pd_port_reset_panel(void);
+
+#endif

@@ -1,0 +1,71 @@
+/* libFuzzer: any bytes, in any rhythm, over the core. The first byte of each chunk says what happens besides.
+ *
+ * It is a fault if the sanitizers say so, if the device no longer answers a HELLO, or if more is written than came.
+ */
+#include <stdlib.h>
+#include <string.h>
+
+#include "../host/host.h"
+#include "paneldraw.h"
+
+static const uint8_t hello[] = {0x00, 0x02, 0x01, 0x09, 0x04, 0x03, 0x02, 0x01, 0x01, 0x01, 0x67, 0xd6, 0x00};
+
+void host_start(uint16_t boot, uint8_t cause);
+void host_set(bool gone, bool slow, bool stuck);
+
+static unsigned answered;
+
+static void turns(unsigned count, uint16_t now)
+{
+    uint8_t byte;
+    while (count--) {
+        pd_poll(now);
+        while (pd_transmit(&byte))
+            answered++;
+    }
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    uint16_t now = 0;
+    host_start(1, 1);
+    answered = 0;
+    for (size_t i = 0; i < sizeof hello && size && data[0] & 1; i++) {
+        pd_receive(hello[i]);
+        turns(3, now);
+    }
+    while (size >= 2) {
+        uint8_t what = data[0];
+        size_t chunk = data[1] < size - 2 ? data[1] : size - 2;
+        host_set(what & 1, what & 2, (what & 0x0C) == 0x0C);
+        if ((what & 0x30) == 0x30)
+            pd_line_error();
+        for (size_t i = 0; i < chunk; i++) {
+            pd_receive(data[2 + i]);
+            if (what & 0x40)
+                turns(1, now);
+            if (what & 0x80)
+                host_bus_step();
+        }
+        host.size = 0;
+        now += what & 0x1F;
+        turns(4, now);
+        data += 2 + chunk;
+        size -= 2 + chunk;
+    }
+    /* Whatever came: when time has passed and the bus is free, the device speaks. */
+    host_set(false, false, false);
+    while (host_bus_step())
+        ;
+    for (int i = 0; i < 100; i++)
+        turns(40, now += 40);
+    answered = 0;
+    for (size_t i = 0; i < sizeof hello; i++) {
+        pd_receive(hello[i]);
+        turns(2, now);
+    }
+    turns(200, now);
+    if (answered < 40)
+        abort();
+    return 0;
+}

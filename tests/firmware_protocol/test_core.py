@@ -1,0 +1,173 @@
+"""The C core against the golden vectors and against the reference device, byte for byte."""
+
+from __future__ import annotations
+
+import pytest
+from core import FIRMWARE, Core, made
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from firmware_protocol import Device
+from firmware_protocol.frames import FrameDecoder, encode_frame
+from firmware_protocol.messages import Baud, Boot, Fault, Hello, Poll, Reset, Status, Write, decode, encode
+from firmware_protocol.runs import pack_runs
+
+VECTORS = FIRMWARE.parent / "vectors"
+HELLO = encode(Hello(0x01020304))
+byte = st.integers(0, 255)
+
+
+@pytest.fixture(scope="module")
+def core(tmp_path_factory: pytest.TempPathFactory) -> Core:
+    return Core(made("host", "host/libpaneldraw.so", tmp_path_factory.mktemp("build"), "cc"))
+
+
+def conversations() -> dict[str, list[str]]:
+    text = (VECTORS / "conversations.txt").read_text()
+    return {name: lines for name, *lines in (part.splitlines() for part in text.split("# ")[1:])}
+
+
+@pytest.mark.parametrize("name", conversations())
+def test_the_core_holds_the_golden_conversations(core: Core, name: str) -> None:
+    core.start()
+    held: list[str] = []
+    for line in conversations()[name]:
+        mark, _, text = line.partition(" ")
+        if mark == "!":
+            core.panel(gone=text == "gone")
+            held.append(line)
+        if mark != ">":
+            continue
+        held.append(line)
+        for value in bytes.fromhex(text):
+            answer = core.receive(bytes((value,)))
+            held += [f"= {content.hex()}" for content in core.transactions()]
+            held += [f"< {answer.hex()}"] * bool(answer)
+    assert held == conversations()[name]
+
+
+def test_the_core_takes_the_golden_frames_for_whole(core: Core) -> None:
+    core.start()
+    for line in (VECTORS / "frames.txt").read_text().splitlines():
+        core.receive(bytes.fromhex(line.split()[3]))
+    core.receive(HELLO)
+    assert status(core).damaged == 0
+
+
+def status(device: Core | Device) -> Status:
+    *_, frame = FrameDecoder().feed(device.receive(b"\0" + encode(Poll(1))))
+    assert frame is not None
+    message = decode(frame)
+    assert isinstance(message, Status)
+    return message
+
+
+RUNS = st.lists(st.tuples(st.booleans(), st.binary(min_size=1, max_size=80)), max_size=3)
+SEQ = st.integers(0, 5)
+PIECES = st.one_of(
+    st.builds(lambda n: encode(Hello(n)), st.integers(0, 3)),
+    st.builds(lambda n, a, b: encode(Hello(n, a, b)), st.integers(0, 3), st.integers(0, 3), st.integers(0, 3)),
+    st.builds(lambda t: encode(Poll(t)), byte),
+    st.builds(lambda s, runs, end: encode(Write(s, b"".join(pack_runs(runs, 250)), end)), SEQ, RUNS, st.booleans()),
+    st.builds(lambda s, p: encode(Write(s, p)), SEQ, st.binary(max_size=30)),
+    st.builds(lambda s, r: encode(Baud(s, r)), SEQ, st.sampled_from([115200, 500000, 9600])),
+    st.builds(lambda s, p: encode(Reset(s, p)), SEQ, st.booleans()),
+    st.builds(encode_frame, byte, SEQ, st.binary(max_size=12)),
+    st.builds(encode_frame, st.just(0x10), SEQ, st.binary(min_size=240, max_size=260)),
+    st.binary(max_size=40),
+    st.just(b"\0"),
+)
+
+
+@settings(max_examples=300, suppress_health_check=[HealthCheck.function_scoped_fixture], deadline=None)
+@given(
+    st.lists(st.tuples(PIECES, st.sampled_from(["", "", "", "cut", "flip", "gone", "back", "wait", "line error"]))),
+    st.data(),
+)
+def test_the_core_does_what_the_reference_does(core: Core, work: list[tuple[bytes, str]], data: st.DataObject) -> None:
+    written: list[bytes] = []
+    gone = False
+    now = 0
+
+    def write(content: bytes) -> None:
+        if gone:
+            raise OSError(121, "Remote I/O error")
+        if content:
+            written.append(content)
+
+    device = Device(write, clock=lambda: now / 1000)
+    assert core.start() == encode(Boot(1, 1))
+    for piece, what in [(HELLO, ""), *work]:
+        if what in ("cut", "flip") and len(piece) > 1:
+            at = data.draw(st.integers(0, len(piece) - 2))
+            piece = piece[:at] + (b"" if what == "cut" else bytes((piece[at] ^ 0x41,))) + piece[at + 1 :]
+        elif what in ("gone", "back"):
+            gone = what == "gone"
+            core.panel(gone=gone)
+        elif what == "wait":
+            now = core.now = now + data.draw(st.sampled_from([100, 299, 300, 1499, 1500]))
+            device.tick()
+            core.receive(b"")
+        elif what == "line error":
+            device.line_error()
+            core.c.host_line_error()
+            core.receive(b"")
+        for value in piece:
+            assert core.receive(bytes((value,))) == device.receive(bytes((value,)))
+            assert core.transactions() == written
+            assert core.baudrate == device.baudrate
+            written.clear()
+
+
+@settings(max_examples=60, suppress_health_check=[HealthCheck.function_scoped_fixture], deadline=None)
+@given(st.lists(RUNS.filter(bool), min_size=1, max_size=3))
+def test_frames_that_come_while_the_bus_is_busy_wait_their_turn(core: Core, work) -> None:
+    core.start()
+    core.receive(HELLO)
+    core.panel(slow=True)
+    sent = b"".join(encode(Write(n, b"".join(pack_runs(runs, 250)))) for n, runs in enumerate(work))
+    answers = core.receive(sent)
+    assert answers == b""
+    while True:
+        while core.c.host_bus_step():
+            pass
+        answer = core.receive(b"")
+        if not answer:
+            break
+        answers += answer
+    wanted: list[bytes] = []
+    reference = Device(wanted.append)
+    reference.receive(HELLO)
+    reference.receive(sent)
+    assert core.transactions() == [content for content in wanted if content]
+    assert [frame.seq for frame in FrameDecoder().feed(answers) if frame] == list(range(len(work)))
+
+
+def test_a_stuck_bus_ends_in_a_fault(core: Core) -> None:
+    core.start()
+    core.receive(HELLO)
+    core.panel(slow=True, stuck=True)
+    assert core.receive(encode(Write(0, b"\x00\xff"))) == b""
+    core.now += 24
+    assert core.receive(b"") == b""
+    core.now += 1
+    (frame,) = FrameDecoder().feed(core.receive(b""))
+    assert frame is not None
+    assert decode(frame).fault is Fault.BUS_STUCK
+    core.panel()
+    core.receive(encode(Reset(1)))
+    core.receive(encode(Write(2, b"\x00\xff")))
+    assert core.transactions() == [b"\x40\xff"]
+
+
+def test_more_than_the_ring_holds_is_counted_and_harmless(core: Core) -> None:
+    core.start()
+    core.receive(HELLO)
+    core.panel(slow=True)
+    core.receive(encode(Write(0, b"\x00\xff")) + encode(Write(1, b"\x00\xfe")) + bytes(range(1, 256)) * 3)
+    while core.c.host_bus_step() or core.receive(b""):
+        pass
+    core.panel()
+    assert status(core).overflows > 0
+    core.receive(encode(Write(2, b"\x00\xfd")))
+    assert core.transactions() == [b"\x40\xff", b"\x40\xfe", b"\x40\xfd"]
