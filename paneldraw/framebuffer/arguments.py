@@ -139,7 +139,10 @@ def line_width(width: Any) -> int:
 
 def table(name: str, rows: Any, columns: int) -> NDArray[Any]:
     """`rows` as an array of numbers of shape (n, columns)."""
-    table = np.asarray(rows)
+    try:
+        table = np.asarray(rows)
+    except ValueError:
+        raise ValueError(f"{name} must have the shape (n, {columns}), and its rows differ in length") from None
     if table.size == 0:
         return np.zeros((0, columns), np.int64)
     if table.dtype.kind not in "biufO":

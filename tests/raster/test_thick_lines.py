@@ -85,16 +85,6 @@ def test_lines_on_both_sides_of_the_thresholds_equal_counting(package, ends, wid
     assert (drawn(package, ends, width, cap, *samples) == counted(ends, width, cap, *samples)).all()
 
 
-@given(st.tuples(*[coarse] * 4), caps, few_samples, st.sampled_from([(0, 0), (5, -3), (NEAR, 0), (-NEAR, 2**70)]))
-def test_a_shape_moved_is_the_same_shape(package, ends, cap, samples, move):
-    """Far coordinates agree with near ones: the wide line around both is drawn the other way, and cut the same."""
-    x1, y1, x2, y2 = ends
-    dx, dy = move
-    far = definitions.rectangle(WIDTH, HEIGHT, x1, y1, x2 + dx, y2 + dy, 3, cap, *samples)
-    near = drawn(package, (x1, y1, x2 + dx, y2 + dy), 3, cap, *samples)
-    assert (near == far).all()
-
-
 @given(st.tuples(*[st.floats(allow_nan=False, allow_infinity=False)] * 4), st.floats(1 / 256, 1e308), few_samples)
 @example((1e308, 0.0, -1e308, 3.0), 1e308, (2, "center"))
 @example((1.5 / 256, 0.0, 2.5 / 256, 3.0), 1.5, (4, "center"))
