@@ -49,6 +49,8 @@ def main(argv: Sequence[str] | None = None) -> int:
             sys.stdout.flush()
             return code
     except _Interrupted as stop:
+        if sys.stderr.isatty():
+            print(file=sys.stderr)  # the terminal has written ^C where the prompt belongs
         return 128 + stop.number
     except BrokenPipeError:
         # Whoever read the output has left; nothing may be written at exit either.
@@ -144,11 +146,11 @@ def _command(
     return parser
 
 
-def _positive(kind: Callable[[str], float]) -> Callable[[str], float]:
+def _positive(kind: Callable[[str], float], most: float = math.inf) -> Callable[[str], float]:
     def convert(text: str) -> float:
         value = kind(text)
-        if not value > 0:
-            raise argparse.ArgumentTypeError(f"{text} is not above 0")
+        if not 0 < value <= most:
+            raise argparse.ArgumentTypeError(f"{text} is not above 0" if value <= most else f"{text} is above {most}")
         return value
 
     convert.__name__ = "number"
@@ -187,6 +189,8 @@ def _demo(options: argparse.Namespace) -> int:
     frames = options.frames or max(1, (options.seconds or 10.0) * options.fps)
     if options.save and not math.isfinite(frames):
         raise _UserError("a file cannot hold an endless demo; give --seconds a number")
+    if options.save and not options.save.parent.is_dir():
+        raise _UserError(f"there is no folder {options.save.parent}; make it first")
     with _opened(options) as panel:
         playback.play(find(options.name), panel, options.name, frames=frames, fps=options.fps, save_to=options.save)
     return 0
@@ -234,9 +238,9 @@ def _read_picture(path: Path) -> Image:
             upright = ImageOps.exif_transpose(file).convert("RGBA")
     except UnidentifiedImageError:
         raise _UserError(f"{path} is no picture that Pillow reads; convert it to PNG or JPEG") from None
-    except FileNotFoundError:
-        raise
     except (OSError, SyntaxError, ValueError, Image.DecompressionBombError) as error:
+        if isinstance(error, OSError) and error.errno:
+            raise
         raise _UserError(f"cannot read {path}: {_one_line(error)}; is the file whole?") from error
     return Image.alpha_composite(Image.new("RGBA", upright.size, "black"), upright).convert("L")
 
@@ -246,8 +250,12 @@ def _add_text(commands: _Commands) -> None:
     parser.add_argument("text", nargs="+", metavar="TEXT", help="words, or - for standard input")
     parser.add_argument("--font", metavar="FILE", help="a TrueType or OpenType font; default: the built-in 6x8 font")
     size = parser.add_mutually_exclusive_group()
-    size.add_argument("--size", type=_positive(float), metavar="N", help="pixels to the em, for outline fonts (16)")
-    size.add_argument("--scale", type=_positive(int), default=1, metavar="N", help="pixels to a pixel of the font (1)")
+    size.add_argument(
+        "--size", type=_positive(float, 500), metavar="N", help="pixels to the em, for outline fonts (16)"
+    )
+    size.add_argument(
+        "--scale", type=_positive(int, 100), default=1, metavar="N", help="pixels to a pixel of the font (1)"
+    )
 
 
 def _text(options: argparse.Namespace) -> int:

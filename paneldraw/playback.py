@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import contextlib
 import datetime
+import math
 import sys
 import time
 from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from .simulator import SSD1306, Frame, I2CBus, TerminalView, save
+from .simulator import Frame, I2CBus, TerminalView, save
+from .simulator.recorder import Showing
+from .transports import I2CTransport
 
 if TYPE_CHECKING:
     from .demos import Demo
@@ -38,7 +41,8 @@ class Progress:
         self._next = time.monotonic() + (0.1 if self._live else 5 * PATIENCE)
         self._said = True
         end = "\x1b[K\r" if self._live else "\n"
-        print(f"{self._what}: {done} of {total:.0f} frames", end=end, file=sys.stderr, flush=True)
+        share = f"{done} of {total:.0f}" if math.isfinite(total) else f"{done}"
+        print(f"{self._what}: {share} frames", end=end, file=sys.stderr, flush=True)
 
     def __enter__(self) -> Progress:
         return self
@@ -48,11 +52,13 @@ class Progress:
             print("\x1b[K", end="", file=sys.stderr, flush=True)
 
 
-def simulated(panel: Panel) -> SSD1306 | None:
+def simulated(panel: Panel) -> Showing | None:
     """Return the chip behind a panel if it is a simulated one."""
-    bus = getattr(panel.transport, "bus", None)
-    chip = bus.devices.get(panel.transport.address) if isinstance(bus, I2CBus) else None
-    return chip if isinstance(chip, SSD1306) else None
+    transport = panel.transport
+    if not (isinstance(transport, I2CTransport) and isinstance(transport.bus, I2CBus)):
+        return None
+    chip = transport.bus.devices.get(transport.address)
+    return chip if isinstance(chip, Showing) else None
 
 
 def print_panel(panel: Panel, caption: str) -> None:

@@ -2,45 +2,20 @@
 
 from __future__ import annotations
 
-import os
 import re
-import select
 import shutil
-import signal
 import subprocess
 import sys
 import sysconfig
-import time
 
 import numpy as np
 import pytest
 from PIL import Image
+from running import ENVIRONMENT, assert_one_line_of_advice, lit, picture_of, run
 
 from paneldraw.cli import main
 
-ENVIRONMENT = {name: value for name, value in os.environ.items() if name != "PANELDRAW_PANEL"}
-ESCAPE = r"\x1b\[\??[\d;]*[A-Za-z]"
 COMMANDS = ["demo", "show", "text", "detect", "info"]
-
-
-def run(*arguments, stdin="", **environment):
-    return subprocess.run(
-        [sys.executable, "-m", "paneldraw", *map(str, arguments)],
-        input=stdin,
-        capture_output=True,
-        encoding="utf-8",
-        env={**ENVIRONMENT, "PYTHONIOENCODING": "utf-8", **environment},
-        timeout=120,
-    )
-
-
-def picture_of(output):
-    """The lines between the borders of what the command printed."""
-    return [line[1:-1] for line in output.splitlines() if line.startswith("│")]
-
-
-def lit(output):
-    return sum({"█": 2, "▀": 1, "▄": 1}.get(char, 0) for line in picture_of(output) for char in line)
 
 
 @pytest.fixture
@@ -238,15 +213,6 @@ def test_every_command_takes_a_panel_and_explains_itself(command, capsys):
 # Mistakes
 
 
-def assert_one_line_of_advice(done, code):
-    assert done.returncode == code, done.stderr
-    lines = done.stderr.splitlines()
-    assert len(lines) == 1, done.stderr
-    assert lines[0].startswith("paneldraw")
-    assert "Traceback" not in done.stdout + done.stderr
-    assert "Errno" not in lines[0]
-
-
 @pytest.mark.parametrize(
     "arguments",
     [
@@ -313,135 +279,6 @@ def test_a_picture_that_was_cut_off(picture):
 def test_the_environment_names_the_panel():
     assert_one_line_of_advice(run("text", "hi", PANELDRAW_PANEL="i2c://77"), 1)
     assert len(picture_of(run("text", "hi", PANELDRAW_PANEL="sim://ssd1306?size=128x32").stdout)) == 16
-
-
-# In a terminal
-
-pty = pytest.importorskip("pty", reason="pseudo-terminals are a thing of Unix")
-
-
-class Terminal:
-    """A process in a terminal of its own, and what it wrote there."""
-
-    def __init__(self, *arguments, columns=140, rows=40):
-        import fcntl
-        import struct
-        import termios
-
-        environment = {**ENVIRONMENT, "TERM": "xterm-256color", "PYTHONIOENCODING": "utf-8"}
-        environment.pop("COLUMNS", None), environment.pop("LINES", None)
-        ready, go = os.pipe()
-        self.pid, self.master = pty.fork()
-        if not self.pid:
-            os.read(ready, 1)
-            os.execve(sys.executable, [sys.executable, "-m", "paneldraw", *map(str, arguments)], environment)
-        fcntl.ioctl(self.master, termios.TIOCSWINSZ, struct.pack("HHHH", rows, columns, 0, 0))
-        self.before = termios.tcgetattr(self.master)
-        os.write(go, b".")
-        os.close(ready), os.close(go)
-        self.output = b""
-        self.code = None
-
-    def read(self, until=None, deadline=60):
-        """Read until a pattern has come, or to the end; then the exit code is known."""
-        end = time.monotonic() + deadline
-        while until is None or not re.search(until, self.output):
-            assert time.monotonic() < end, self.output[-500:]
-            if not select.select([self.master], [], [], 1)[0]:
-                continue
-            try:
-                chunk = os.read(self.master, 65536)
-            except OSError:  # Linux: the last writer has closed its end
-                chunk = b""
-            if not chunk:
-                break
-            self.output += chunk
-        if until is None:
-            self.code = os.waitstatus_to_exitcode(os.waitpid(self.pid, 0)[1])
-        return self.output.decode(errors="replace")  # a signal may cut a character in two
-
-    def close(self):
-        if self.code is None:
-            os.kill(self.pid, signal.SIGKILL)
-            os.waitpid(self.pid, 0)
-        os.close(self.master)
-
-
-@pytest.fixture
-def terminal():
-    opened = []
-
-    def start(*arguments, **size):
-        opened.append(Terminal(*arguments, **size))
-        return opened[-1]
-
-    yield start
-    for each in opened:
-        each.close()
-
-
-def assert_in_order(output):
-    """The cursor is shown and the attributes are plain at the end, and no other screen was entered for good."""
-    assert output.count("\x1b[?25l") == 1
-    assert output.rindex("\x1b[?25h") > output.rindex("\x1b[?25l")
-    colors = re.findall(r"\x1b\[([\d;]*)m", output)
-    assert not colors or colors[-1] in ("", "0")
-    assert output.count("\x1b[?1049h") == output.count("\x1b[?1049l")
-    assert "Traceback" not in output
-
-
-def test_a_demo_plays_in_a_terminal(terminal):
-    window = terminal("demo", "--seconds", "1.5", "--fps", "20")
-    output = window.read()
-    assert window.code == 0
-    assert_in_order(output)
-    frames = output.split("\x1b[34A\r"), output.split("\x1b[35A\r")
-    assert max(map(len, frames)) > 3
-    last = output.replace("\r\n", "\n").rsplit("┌", 1)[1]
-    assert lit(last) > 200
-
-
-def test_a_demo_fits_a_usual_terminal(terminal):
-    output = terminal("demo", "--frames", 3, columns=80, rows=24).read()
-    lines = [re.sub(ESCAPE, "", line).strip("\r") for line in output.split("\n")]
-    assert max(map(len, lines)) <= 80
-    assert re.search("[\u2801-\u28ff]", output), "no braille dots"
-
-
-@pytest.mark.parametrize(
-    ("press", "code"),
-    [
-        (lambda window: os.write(window.master, b"\x03"), 130),
-        (lambda window: os.kill(window.pid, signal.SIGINT), 130),
-        (lambda window: os.kill(window.pid, signal.SIGTERM), 143),
-        (lambda window: os.kill(window.pid, signal.SIGHUP), 129),
-    ],
-    ids=["ctrl-c", "SIGINT", "SIGTERM", "SIGHUP"],
-)
-def test_stopping_leaves_the_terminal_in_order(terminal, press, code):
-    import termios
-
-    window = terminal("demo", "--seconds", "inf")
-    window.read(until=rb"\x1b\[\d+A(?s:.)*\x1b\[\d+A")
-    press(window)
-    state = termios.tcgetattr(window.master)
-    output = window.read()
-    assert window.code == code
-    assert_in_order(output)
-    assert state == window.before
-
-
-def test_saving_in_a_terminal_counts_on_one_line(terminal, tmp_path):
-    window = terminal("demo", "--save", tmp_path / "a.gif", "--frames", "5")
-    output = window.read()
-    assert window.code == 0
-    assert (tmp_path / "a.gif").exists()
-    assert_in_order(output)
-
-
-def test_the_shell_gets_its_prompt_on_a_line_of_its_own(terminal):
-    for arguments in (("demo", "--frames", "2"), ("text", "Hi"), ("info",)):
-        assert re.sub(ESCAPE, "", terminal(*arguments).read()).endswith("\n")
 
 
 def test_a_module_of_the_command_costs_little():
