@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import errno
+import itertools
 import re
+import signal
 from urllib.parse import urlsplit
 
 import numpy as np
@@ -155,6 +157,27 @@ def test_a_demo_on_a_real_bus_leaves_the_glass_dark(machine, capsys):
     assert len({frame.pixels.tobytes() for frame in chip.frames}) > 1
     assert not chip.pixels.any()
     assert "frame" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize("call", [1, 2, 3, 10])
+def test_a_signal_at_any_transfer_leaves_the_glass_dark(machine, number, call):
+    chip = simulator.SSD1306()
+    bus = simulator.I2CBus({0x3C: chip})
+    machine[1] = ("bus", bus)
+    carry, calls = bus.i2c_rdwr, itertools.count(1)
+
+    def interrupted(*messages):
+        carry(*messages)
+        if next(calls) == call:
+            signal.raise_signal(number)
+
+    bus.i2c_rdwr = interrupted
+    handlers = signal.getsignal(signal.SIGINT), signal.getsignal(signal.SIGTERM)
+    assert main(["demo", "--panel", "i2c://1", "--seconds", "inf", "--fps", "1000"]) == 128 + number
+    assert not chip.pixels.any()
+    assert not chip.violations
+    assert (signal.getsignal(signal.SIGINT), signal.getsignal(signal.SIGTERM)) == handlers
 
 
 @pytest.mark.parametrize("command", [["demo", "--frames", "500"], ["text", "hi"]])
