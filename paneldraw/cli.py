@@ -96,7 +96,8 @@ def _one_line(error: BaseException) -> str:
         return f"there is no file {error.filename}; check the path"
     text = str(error)
     if isinstance(error, OSError) and error.strerror:
-        text = f"{error.filename}: {error.strerror}" if error.filename else error.strerror
+        advice = f"{error.filename}: {error.strerror}; check the path and its permissions"
+        text = advice if error.filename else error.strerror
     return " ".join(text.split()) or type(error).__name__
 
 
@@ -150,7 +151,7 @@ def _positive(kind: Callable[[str], float], most: float = math.inf) -> Callable[
     def convert(text: str) -> float:
         value = kind(text)
         if not 0 < value <= most:
-            raise argparse.ArgumentTypeError(f"{text} is not above 0" if value <= most else f"{text} is above {most}")
+            raise argparse.ArgumentTypeError(f"{text} is not above 0 and at most {most}")
         return value
 
     convert.__name__ = "number"
@@ -172,7 +173,7 @@ def _add_demo(commands: _Commands) -> None:
         "--seconds", type=_positive(float), metavar="N", help="how long, inf for ever; which moment of a .png (10)"
     )
     length.add_argument("--frames", type=_positive(int), metavar="N", help="how many frames, instead of --seconds")
-    parser.add_argument("--fps", type=_positive(float), default=30.0, metavar="N", help="frames a second (30)")
+    parser.add_argument("--fps", type=_positive(float, 1000), default=30.0, metavar="N", help="frames a second (30)")
 
 
 def _save_path(text: str) -> Path:

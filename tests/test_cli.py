@@ -225,6 +225,8 @@ def test_every_command_takes_a_panel_and_explains_itself(command, capsys):
         ["demo", "--save", "a.txt"],
         ["demo", "--fps", "0"],
         ["demo", "--fps", "nan"],
+        ["demo", "--fps", "inf"],
+        ["text", "a", "--scale", "100000"],
         ["demo", "--frames", "-1"],
         ["demo", "--frames", "1.5"],
         ["demo", "--seconds", "soon"],
