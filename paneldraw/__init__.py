@@ -5,7 +5,9 @@ from __future__ import annotations
 from paneldraw import _compiled
 
 if not _compiled.COMPILED:
-    _compiled.load_sources()
+    from paneldraw import _interpreted
+
+    _interpreted.load_sources()
 
 from paneldraw.framebuffer import Framebuffer
 from paneldraw.raster.supersample import Supersample

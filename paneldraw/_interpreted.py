@@ -1,0 +1,97 @@
+"""How the modules that Cython compiles run as plain Python, where nothing was compiled.
+
+A compiled module needs no ``cython`` at run time. The same file run as plain Python asks for one at import: it is
+lent a stand-in of the few names that the modules use, for the length of that import and no longer.
+"""
+
+from __future__ import annotations
+
+import importlib
+import importlib.abc
+import importlib.machinery
+import importlib.util
+import sys
+from collections.abc import Sequence
+from types import ModuleType
+from typing import Any
+
+from paneldraw._compiled import MODULES, PACKAGE
+
+
+class _Anything:
+    """A type or a decorator of cython's: as annotation it says nothing, as decorator it changes nothing."""
+
+    def __getattr__(self, name: str) -> _Anything:
+        return self
+
+    def __getitem__(self, item: Any) -> _Anything:
+        return self
+
+    def __call__(self, *args: Any, **kwargs: Any) -> Any:
+        return args[0] if args else self
+
+
+class _StandIn(ModuleType):
+    """The names of cython's pure-Python mode, doing nothing."""
+
+    compiled = False
+
+    @staticmethod
+    def cast(_type: Any, value: Any) -> Any:
+        return value
+
+    @staticmethod
+    def declare(_type: Any, value: Any = None, visibility: str = "private") -> Any:
+        return value
+
+    @staticmethod
+    def exceptval(_value: Any = None, check: bool = False) -> _Anything:
+        return _Anything()
+
+    def __getattr__(self, name: str) -> _Anything:
+        if name.startswith("__"):
+            raise AttributeError(name)
+        return _Anything()
+
+
+class _Lender(importlib.abc.MetaPathFinder, importlib.abc.Loader):
+    """Finds ``cython`` as the stand-in, ``cython.cimports.NAME`` as the module NAME, and `MODULES` as their sources."""
+
+    def find_spec(
+        self, fullname: str, path: Sequence[str] | None = None, target: ModuleType | None = None
+    ) -> importlib.machinery.ModuleSpec | None:
+        if fullname.partition(".")[0] == "cython":
+            return importlib.machinery.ModuleSpec(fullname, self, is_package=True)
+        if fullname in MODULES:
+            source = PACKAGE.joinpath(*fullname.split(".")[1:]).with_suffix(".py")
+            return importlib.util.spec_from_file_location(fullname, source)
+        return None
+
+    def create_module(self, spec: importlib.machinery.ModuleSpec) -> ModuleType:
+        name = spec.name.removeprefix("cython.cimports.").removeprefix("libc.")
+        if name == "math" or name.startswith("paneldraw."):
+            alias = ModuleType(spec.name)
+            alias.__dict__.update(vars(importlib.import_module(name)))
+            return alias
+        return _StandIn(spec.name)
+
+    def exec_module(self, module: ModuleType) -> None:
+        """Nothing to run: the stand-in is whole when made."""
+
+
+def _take_back() -> dict[str, ModuleType]:
+    return {name: sys.modules.pop(name) for name in list(sys.modules) if name.partition(".")[0] == "cython"}
+
+
+def load_sources() -> None:
+    """Import `MODULES` as plain Python, with the stand-in in ``cython``'s place meanwhile."""
+    own = _take_back()
+    lender = _Lender()
+    sys.meta_path.insert(0, lender)
+    try:
+        for name in MODULES:
+            importlib.import_module(name)
+    finally:
+        sys.meta_path.remove(lender)
+        _take_back()
+        sys.modules.update(own)
