@@ -151,7 +151,8 @@ def _positive(kind: Callable[[str], float], most: float = math.inf) -> Callable[
     def convert(text: str) -> float:
         value = kind(text)
         if not 0 < value <= most:
-            raise argparse.ArgumentTypeError(f"{text} is not above 0 and at most {most}")
+            limit = f" and at most {most}" if math.isfinite(most) else ""
+            raise argparse.ArgumentTypeError(f"{text} is not above 0{limit}")
         return value
 
     convert.__name__ = "number"
