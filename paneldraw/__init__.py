@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from paneldraw import _compiled
 
 if not _compiled.COMPILED:
@@ -12,4 +14,25 @@ if not _compiled.COMPILED:
 from paneldraw.framebuffer import Framebuffer
 from paneldraw.raster.supersample import Supersample
 
-__all__ = ["Framebuffer", "Supersample"]
+if TYPE_CHECKING:
+    from paneldraw.panel import Panel, open_panel
+    from paneldraw.text import Font
+
+__all__ = ["Font", "Framebuffer", "Panel", "Supersample", "open_panel"]
+
+_LATER = {"Font": "text", "Panel": "panel", "open_panel": "panel"}
+
+if not TYPE_CHECKING:
+
+    def __getattr__(name: str) -> object:
+        """Import what a script that only draws can do without where somebody asks for it."""
+        if name not in _LATER:
+            raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+        import importlib
+
+        globals()[name] = getattr(importlib.import_module(f"{__name__}.{_LATER[name]}"), name)
+        return globals()[name]
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})
