@@ -53,6 +53,10 @@ MAX_IN_FLIGHT = 100
 #: Payload that a bad line shrinks frames to: at 3 errors in 1000 bytes five of six still arrive.
 BAD_LINE_PAYLOAD = 48
 
+#: Payload of the first frame of an update on a fast wire, so that the panel's bus starts early, and of the last on a
+#: slow one, so that the bus is done soon after the wire.
+SHORT = 48
+
 _PROBATION = 0.3
 
 _FAULTS = {
@@ -317,7 +321,8 @@ class HostLink:
 
     def _size_frames(self) -> None:
         # A slow wire wants few large frames; a fast one wants the next frame there when the panel is done with one.
-        parts = 2 if self.baudrate <= 230_400 else 3
+        self._fast = self.baudrate > 230_400
+        parts = 3 if self._fast else 2
         self._best_payload = max(LEAST_PAYLOAD, min(self.device.max_payload, self.device.window // parts - 8))
         self._payload_limit = self._best_payload
         self._window = self.device.window
@@ -325,9 +330,13 @@ class HostLink:
     # -- the window
 
     def _writes(self, runs: Iterable[Run], end: bool) -> list[tuple[int, bytes]]:
-        payloads = pack_runs(runs, self._payload_limit, repeats=self.device.repeats)
-        last = len(payloads) - 1
-        return [(Kind.WRITE_END if end and at == last else Kind.WRITE, payload) for at, payload in enumerate(payloads)]
+        limit, repeats = self._payload_limit, self.device.repeats
+        payloads = pack_runs(runs, limit, first=min(limit, SHORT) if self._fast else limit, repeats=repeats)
+        if not self._fast and len(payloads) > 1 and len(payloads[-1]) > 2 * SHORT:
+            last = payloads.pop()
+            payloads += pack_runs(unpack_runs(last), limit, first=len(last) - SHORT, repeats=repeats)
+        last_at = len(payloads) - 1
+        return [(Kind.WRITE_END if end and at == last_at else Kind.WRITE, p) for at, p in enumerate(payloads)]
 
     def _sequenced(self, kind: Kind, payload: bytes) -> None:
         self._work.append((kind, payload))

@@ -23,7 +23,7 @@ _REPEATS = re.compile(rb"(.)\1{3,%d}" % (MAX_REPEAT - 1), re.DOTALL)
 Run = tuple[bool, bytes]
 
 
-def pack_runs(runs: Iterable[Run], limit: int, *, repeats: bool = True) -> list[bytes]:
+def pack_runs(runs: Iterable[Run], limit: int, *, first: int | None = None, repeats: bool = True) -> list[bytes]:
     """Turn runs into WRITE payloads, as few as there can be.
 
     Parameters
@@ -33,6 +33,8 @@ def pack_runs(runs: Iterable[Run], limit: int, *, repeats: bool = True) -> list[
         payload where they fit into one.
     limit : int
         Most bytes a payload may have, at least 33.
+    first : int, optional
+        Most bytes the first payload may have, at least 33. Default: ``limit``.
     repeats : bool, default True
         Whether the device understands repeats.
 
@@ -46,9 +48,9 @@ def pack_runs(runs: Iterable[Run], limit: int, *, repeats: bool = True) -> list[
     >>> [p.hex(" ") for p in pack_runs([(False, b"\\xb0\\x02\\x10"), (True, bytes(40))], 64)]
     ['82 b0 02 10 d9 00']
     """
-    if limit < LEAST_PAYLOAD:
-        raise ValueError(f"limit must be at least {LEAST_PAYLOAD} bytes, not {limit}")
-    packer = _Packer(limit)
+    if min(limit, first or limit) < LEAST_PAYLOAD:
+        raise ValueError(f"limit and first must be at least {LEAST_PAYLOAD} bytes, not {limit} and {first}")
+    packer = _Packer(limit, first or limit)
     for is_data, content in runs:
         if is_data:
             packer.data(content, repeats)
@@ -98,8 +100,9 @@ def _tokens(payload: bytes) -> Iterator[Run]:
 class _Packer:
     """Fills payloads token by token."""
 
-    def __init__(self, limit: int) -> None:
-        self.limit = limit
+    def __init__(self, limit: int, first: int) -> None:
+        self.later = limit
+        self.limit = first
         self.payload = bytearray()
         self.done: list[bytes] = []
 
@@ -107,11 +110,12 @@ class _Packer:
         if self.payload:
             self.done.append(bytes(self.payload))
             self.payload.clear()
+            self.limit = self.later
         return self.done
 
     def commands(self, content: bytes) -> None:
         size = len(content) + -(-len(content) // MAX_COMMANDS)
-        if size > self.limit - len(self.payload) and size <= self.limit:
+        if size > self.limit - len(self.payload) and size <= self.later:
             self.finish()
         for at in range(0, len(content), MAX_COMMANDS):
             part = content[at : at + MAX_COMMANDS]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from core import FIRMWARE, Core, made
+from c_core import FIRMWARE, Core, made
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 

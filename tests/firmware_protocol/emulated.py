@@ -1,0 +1,148 @@
+"""The emulated ATmega328P with the real firmware, as a port for `HostLink` in simulated time."""
+
+from __future__ import annotations
+
+import ctypes
+import random
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+from c_core import made
+from simulated import Noise, PagePanel
+
+HZ = 16_000_000
+RIG = Path(__file__).parent / "rig" / "rig.c"
+
+
+def built(build: Path) -> tuple[Path, Path]:
+    """Return the rig's library and the firmware, or skip where something to build them with is missing."""
+    if not Path("/usr/include/simavr").exists():
+        pytest.skip("libsimavr-dev is not installed")
+    if not shutil.which("cc"):
+        pytest.skip("cc is not installed")
+    elf = made("atmega328p", "atmega328p/paneldraw.elf", build, "avr-gcc")
+    library = build / "rig.so"
+    flags = ["-O2", "-Wall", "-Wextra", "-Werror", "-shared", "-fPIC"]
+    done = subprocess.run(
+        ["cc", *flags, str(RIG), "-o", str(library), "-lsimavr", "-lelf"], capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, done.stderr
+    return library, elf
+
+
+class Board:
+    """The chip: runs cycle by cycle, takes and gives characters, logs what its panel's bus carried."""
+
+    def __init__(self, library: Path, elf: Path) -> None:
+        self.c = ctypes.CDLL(str(library))
+        self.c.rig_new.restype = ctypes.c_void_p
+        self.c.rig_cycle.restype = ctypes.c_uint64
+        self.c.rig_run.restype = ctypes.c_bool
+        self.c.rig_run.argtypes = [ctypes.c_void_p, ctypes.c_uint64, ctypes.c_bool]
+        for name in ("take", "log", "overruns", "untouched"):
+            getattr(self.c, f"rig_{name}").restype = ctypes.c_uint32
+        self.c.rig_panel.argtypes = [ctypes.c_void_p, ctypes.c_bool, ctypes.c_bool, ctypes.c_long]
+        self.rig = ctypes.c_void_p(self.c.rig_new(str(elf).encode()))
+        assert self.rig, "the rig does not start"
+        self.room = (ctypes.c_uint8 * (1 << 18))()
+        self.character = ctypes.c_uint8()
+
+    def close(self) -> None:
+        if self.rig:
+            self.c.rig_free(self.rig)
+            self.rig = ctypes.c_void_p()
+
+    @property
+    def cycle(self) -> int:
+        return int(self.c.rig_cycle(self.rig))
+
+    def run(self, until: int, stop_at_output: bool = False) -> None:
+        assert self.c.rig_run(self.rig, until, stop_at_output), "the firmware has crashed"
+
+    def feed(self, data: bytes, baudrate: int) -> None:
+        self.c.rig_feed(self.rig, data, len(data), round(HZ / baudrate))
+
+    def output(self, baudrate: int) -> bytes:
+        """Return the characters that went out; one at another rate than ``baudrate`` reads as another character."""
+        out = bytearray()
+        while bit := self.c.rig_take(self.rig, ctypes.byref(self.character)):
+            right = abs(bit * baudrate / HZ - 1) < 0.05
+            out.append(self.character.value if right else self.character.value * 37 + 11 & 0xFF)
+        return bytes(out)
+
+    def transactions(self) -> list[bytes]:
+        written = bytes(self.room[: self.c.rig_log(self.rig, self.room, len(self.room))])
+        found, at = [], 0
+        while at < len(written):
+            size = int.from_bytes(written[at : at + 2], "little")
+            found.append(written[at + 2 : at + 2 + size])
+            at += 2 + size
+        return [content for content in found if content]
+
+    def panel(self, *, absent: bool = False, stuck: bool = False, nack_after: int = -1) -> None:
+        self.c.rig_panel(self.rig, absent, stuck, nack_after)
+
+    def reset(self, *, power: bool = False) -> None:
+        self.c.rig_reset(self.rig, power)
+
+    def hang(self) -> None:
+        self.c.rig_hang(self.rig)
+
+    @property
+    def overruns(self) -> int:
+        return int(self.c.rig_overruns(self.rig))
+
+    @property
+    def untouched_ram(self) -> int:
+        return int(self.c.rig_untouched(self.rig))
+
+
+class BoardPort:
+    """What `HostLink` needs of a pyserial port, joined to a `Board`; `clock` is the board's time."""
+
+    name = "emulated"
+
+    def __init__(self, board: Board, *, noise: Noise | None = None, seed: int = 0) -> None:
+        self.board = board
+        self.noise = noise or Noise()
+        self.rng = random.Random(seed)
+        self.panel = PagePanel()
+        self.baudrate, self.timeout, self.is_open = 115200, 0.02, True
+        self.received = bytearray()
+        self.carried = 0
+
+    def clock(self) -> float:
+        return self.board.cycle / HZ
+
+    @property
+    def in_waiting(self) -> int:
+        return len(self.received)
+
+    def open(self) -> None:
+        self.is_open = True
+
+    def close(self) -> None:
+        self.is_open = False
+
+    def flush(self) -> None:
+        pass
+
+    def write(self, data: bytes) -> int:
+        self.carried += len(data)
+        self.board.feed(self.noise(data, self.rng), self.baudrate)
+        return len(data)
+
+    def read(self, size: int = 1) -> bytes:
+        until = self.board.cycle + round(self.timeout * HZ)
+        while not self.received and self.board.cycle < until:
+            self.board.run(until, stop_at_output=True)
+            data = self.board.output(self.baudrate)
+            self.carried += len(data)
+            self.received += self.noise(data, self.rng)
+        for content in self.board.transactions():
+            self.panel(content)
+        data = bytes(self.received[:size])
+        del self.received[:size]
+        return data

@@ -1,0 +1,291 @@
+"""The firmware itself, on an emulated ATmega328P, driven by the real host side in simulated time."""
+
+from __future__ import annotations
+
+import os
+import random
+import re
+import select
+import shutil
+import subprocess
+import threading
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+from c_core import FIRMWARE
+from emulated import HZ, Board, BoardPort, built
+from simulated import Noise, PagePanel, whole
+
+from firmware_protocol import DeviceResetError, Fault, HostLink, PanelFaultError
+from firmware_protocol.frames import FrameDecoder
+from firmware_protocol.messages import Ack, Hello, HelloReply, Nak, Poll, Status, decode, encode
+
+HELLO = b"\0" + encode(Hello(0x01020304))
+
+
+@pytest.fixture(scope="module")
+def binaries(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
+    return built(tmp_path_factory.mktemp("avr"))
+
+
+@pytest.fixture
+def board(binaries: tuple[Path, Path]) -> Iterator[Board]:
+    board = Board(*binaries)
+    board.run(HZ // 50)
+    yield board
+    board.close()
+
+
+def joined(board: Board, baudrate: int | None = None, **options) -> tuple[BoardPort, HostLink]:
+    port = BoardPort(board, **options)
+    return port, HostLink(port, baudrate=baudrate, clock=port.clock)
+
+
+def screens(count: int) -> list[bytes]:
+    rng = random.Random(2)
+    return [rng.randbytes(1024) for _ in range(count)]
+
+
+def exchange(board: Board, data: bytes) -> bytes:
+    """Send bytes and return what comes back: 12 ms let the longest work be done and the longest answer through."""
+    board.feed(data, 115200)
+    board.run(board.cycle + round((len(data) / 11520 + 0.012) * HZ))
+    return board.output(115200)
+
+
+def test_the_limits_of_an_uno(binaries: tuple[Path, Path]) -> None:
+    if not shutil.which("avr-size"):
+        pytest.skip("avr-size is not installed")
+    sizes = subprocess.run(["avr-size", str(binaries[1])], capture_output=True, text=True, check=True).stdout
+    text, data, bss = map(int, sizes.splitlines()[1].split()[:3])
+    assert text + data < 8192
+    assert data + bss < 1200
+    assert binaries[1].with_suffix(".hex").read_text().endswith(":00000001FF\n")
+
+
+def test_it_says_who_it_is_after_a_start(board: Board) -> None:
+    (boot,) = FrameDecoder().feed(board.output(115200))
+    assert boot is not None
+    assert decode(boot).cause == 1
+    port, link = joined(board)
+    said = link.device
+    assert (said.controller, said.width, said.height, said.address, said.present) == ("ssd1306", 128, 64, 0x3C, True)
+    assert link.baudrate == 500_000
+    assert port.panel.ram == bytes(1024)
+
+
+@pytest.mark.parametrize(("baudrate", "least"), [(115_200, 10.5), (500_000, 33.0)])
+def test_random_pictures_in_simulated_frames_a_second(board: Board, baudrate: int, least: float) -> None:
+    port, link = joined(board, baudrate)
+    pictures = screens(6)
+    link.write(whole(pictures[0]))
+    start = port.clock()
+    for picture in pictures:
+        link.write([(True, picture)])
+    assert len(pictures) / (port.clock() - start) > least
+    assert link.stats.resent == board.overruns == 0
+
+
+def test_one_pixel_in_simulated_time_and_bytes(board: Board) -> None:
+    port, link = joined(board, 500_000)
+    sent, start = link.stats.bytes_sent, port.clock()
+    link.write([(False, bytes.fromhex("b00810")), (True, b"\xff")])
+    assert link.stats.bytes_sent - sent <= 13
+    assert port.clock() - start < 0.0015
+
+
+@pytest.mark.parametrize("baudrate", [115_200, 250_000, 500_000, 1_000_000])
+def test_pictures_arrive_at_every_rate(board: Board, baudrate: int) -> None:
+    port, link = joined(board, baudrate)
+    for picture in [*screens(2), bytes(1024), b"\x0f" * 1024]:
+        link.write(whole(picture))
+        port.read()
+        assert port.panel.ram == picture
+    seen = link.status()
+    assert seen.overflows == board.overruns == link.stats.resent == 0
+    assert board.untouched_ram > 500
+
+
+@pytest.mark.parametrize("baudrate", [115_200, 500_000])
+def test_a_noisy_line_costs_bytes_and_no_picture(board: Board, baudrate: int) -> None:
+    port, link = joined(board, baudrate, noise=Noise(0.001, 0.001, 0.001), seed=4)
+    pictures = screens(6)
+    before = port.carried
+    for picture in pictures:
+        link.write(whole(picture))
+        port.read()
+        assert port.panel.ram == picture
+    assert link.stats.resent > 0
+    assert (port.carried - before) / len(pictures) < 2.2 * 1180
+
+
+def test_the_golden_conversations(board: Board) -> None:
+    text = (FIRMWARE.parent / "vectors" / "conversations.txt").read_text()
+    for part in text.split("# ")[1:]:
+        name, *lines = part.splitlines()
+        board.reset(power=True)
+        board.panel()
+        board.run(board.cycle + HZ // 50)
+        board.output(115200)
+        board.transactions()
+        replies, written, wanted, wanted_written = b"", [], b"", []
+        for line in lines:
+            mark, _, content = line.partition(" ")
+            if mark == "!":
+                board.panel(absent=content == "gone")
+            elif mark == ">":
+                replies += exchange(board, bytes.fromhex(content))
+                written += board.transactions()
+            elif mark == "<":
+                wanted += bytes.fromhex(content)
+            else:
+                wanted_written.append(bytes.fromhex(content))
+        if name != "a rate that is not offered":  # it changes its rate at the end
+            assert comparable(replies) == comparable(wanted), name
+        assert written == wanted_written, name
+
+
+def comparable(replies: bytes) -> list[object]:
+    """Leave out what one device says otherwise than another: its name, its start and its line's counters."""
+    found: list[object] = []
+    for frame in FrameDecoder().feed(replies):
+        assert frame is not None
+        message = decode(frame)
+        if isinstance(message, HelloReply):
+            found.append((message.nonce, message.version, message.present, message.max_payload, message.window))
+        elif isinstance(message, Status):
+            found.append((message.token, message.expected, message.fault, message.damaged))
+        else:
+            found.append(message if isinstance(message, Ack | Nak) else type(message))
+    return found
+
+
+@pytest.mark.parametrize(
+    ("trouble", "cause"),
+    [(lambda b: b.reset(), "reset pin"), (lambda b: b.reset(power=True), "power on"), (lambda b: b.hang(), "watchdog")],
+)
+@pytest.mark.parametrize("baudrate", [115_200, 500_000])
+def test_a_restart_in_the_middle(board: Board, trouble: Callable[[Board], None], cause: str, baudrate: int) -> None:
+    port, link = joined(board, baudrate)
+    first, second = screens(2)
+    link.submit(whole(first))
+    trouble(board)
+    with pytest.raises(DeviceResetError, match=cause):
+        link.write(whole(first))
+    link.write(whole(second))
+    port.read()
+    assert port.panel.ram == second
+    assert link.stats.sessions == 2
+
+
+@pytest.mark.parametrize(
+    ("panel", "fault"),
+    [
+        ({"absent": True}, Fault.ADDRESS_NACK),
+        ({"nack_after": 200}, Fault.DATA_NACK),
+        ({"stuck": True}, Fault.BUS_STUCK),
+    ],
+)
+def test_a_panel_that_fails_and_comes_back(board: Board, panel: dict[str, int], fault: Fault) -> None:
+    port, link = joined(board)
+    board.panel(**panel)
+    with pytest.raises(PanelFaultError) as caught:
+        link.write(whole(screens(1)[0]))
+    assert caught.value.fault == fault
+    board.panel()
+    board.transactions()
+    for picture in screens(2):
+        link.write(whole(picture))
+        port.read()
+        assert port.panel.ram == picture
+    assert link.stats.sessions == 1
+
+
+def test_a_panel_that_is_not_there_is_told_at_the_handshake(board: Board) -> None:
+    board.panel(absent=True)
+    assert not joined(board)[1].device.present
+
+
+@pytest.mark.parametrize("baudrate", [115_200, 9_600, 1_000_000])
+def test_any_bytes_leave_it_ready(board: Board, baudrate: int) -> None:
+    exchange(board, HELLO)
+    rng = random.Random(baudrate)
+    for _ in range(20):
+        size = min(400, baudrate // 400)
+        noise = rng.randbytes(size) if rng.random() < 0.7 else bytes(rng.choices((0, 1, 2, 0x10, 255), k=size))
+        board.feed(noise, baudrate)
+        board.run(board.cycle + HZ // 20)
+        board.output(115200)
+    board.run(board.cycle + HZ // 2)
+    board.output(115200)
+    kinds = [frame.kind for frame in FrameDecoder().feed(exchange(board, HELLO + encode(Poll(1)))) if frame]
+    assert kinds[-2:] == [0x81, 0x82]
+
+
+def test_more_than_the_window_is_lost_and_nothing_else(board: Board) -> None:
+    port, link = joined(board, 500_000)
+    port.write(b"\0" + bytes(range(1, 256)) * 40)
+    picture = screens(1)[0]
+    link.write(whole(picture))
+    port.read()
+    assert port.panel.ram == picture
+
+
+def test_a_host_that_leaves_at_a_fast_rate_finds_the_board_again(board: Board) -> None:
+    joined(board, 1_000_000)
+    port, link = joined(board, 115_200)
+    picture = screens(1)[0]
+    link.write(whole(picture))
+    port.read()
+    assert port.panel.ram == picture
+
+
+class PtyBoard:
+    """The board behind a pseudo-terminal, at the speed of its wire and of the clock on the wall."""
+
+    def __init__(self, board: Board) -> None:
+        import tty
+
+        self.board = board
+        self.panel = PagePanel()
+        self.far, self.near = os.openpty()
+        tty.setraw(self.near)
+        self.stop = threading.Event()
+        self.thread = threading.Thread(target=self.run, daemon=True)
+        self.thread.start()
+
+    def run(self) -> None:
+        start, first = time.monotonic(), self.board.cycle
+        rate = 115200
+        while not self.stop.is_set():
+            if select.select([self.far], [], [], 0.001)[0]:
+                self.board.feed(os.read(self.far, 4096), rate)
+            self.board.run(first + round((time.monotonic() - start) * HZ))
+            if data := self.board.output(rate):
+                os.write(self.far, data)
+            for content in self.board.transactions():
+                self.panel(content)
+
+    def close(self) -> None:
+        self.stop.set()
+        self.thread.join()
+        os.close(self.far)
+        os.close(self.near)
+
+
+def test_real_pyserial_over_a_real_pty_to_the_firmware(board: Board) -> None:
+    serial = pytest.importorskip("serial", reason="pyserial is not installed")
+    pytest.importorskip("termios", reason="no pseudo-terminals here")
+    behind = PtyBoard(board)
+    with HostLink(serial.Serial(os.ttyname(behind.near), 115200), baudrate=115200) as link:
+        picture = screens(1)[0]
+        link.write(whole(picture))
+    behind.close()
+    assert behind.panel.ram == picture
+
+
+def test_the_readme_names_the_files_that_are_made() -> None:
+    text = (FIRMWARE / "README.md").read_text()
+    assert re.search(r"avrdude .*build/atmega328p/paneldraw\.hex", text)
