@@ -224,7 +224,7 @@ def render(text: str, font: Font | None = None, anchor: str = "lt") -> tuple[NDA
     Raises
     ------
     TypeError
-        If the text is not a string.
+        If the text is not a string or the font not a Font.
     ValueError
         If there is no such anchor.
 
@@ -238,6 +238,8 @@ def render(text: str, font: Font | None = None, anchor: str = "lt") -> tuple[NDA
     if anchor not in _ANCHORS:
         raise ValueError(f"anchor must be one of l, m, r and one of a, t, m, s, b, d, such as 'lt', not {anchor!r}")
     font = _builtin() if font is None else font
+    if not isinstance(font, Font):
+        raise TypeError(f"font must be a Font, such as Font.truetype(path, size), not {type(font).__name__}")
     horizontal, vertical = anchor[0], anchor[1]
     lines = _lines(text)
     if len(lines) == 1:

@@ -20,9 +20,10 @@ if not cython.compiled:
 if TYPE_CHECKING:
     from types import EllipsisType
 
-    # Cython would take a plain `float` or `int` in a signature for a type of its own.
+    # Cython would take a plain `float` or `int` in a signature for a type of its own, and `str` for str alone.
     Real: TypeAlias = SupportsFloat | SupportsIndex
     Int: TypeAlias = int
+    Str: TypeAlias = str
     Level: TypeAlias = SupportsIndex | None
     Antialias: TypeAlias = Supersample | None
     AntialiasOrDefault: TypeAlias = Antialias | EllipsisType
@@ -96,7 +97,7 @@ def size(name: str, value: Any) -> int:
     try:
         return operator.index(value)
     except TypeError:
-        raise TypeError(f"{name} must be a whole number of pixels, not {type(value).__name__}") from None
+        raise TypeError(f"{name} must be a whole number, not {type(value).__name__}") from None
 
 
 def not_negative(name: str, number: int) -> int:

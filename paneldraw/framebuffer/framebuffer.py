@@ -1,4 +1,4 @@
-# cython: language_level=3, boundscheck=False, wraparound=False, cdivision=True
+# cython: language_level=3, boundscheck=False, wraparound=False, cdivision=True, nonecheck=True
 """The framebuffer: the pixels in memory, and pictures in and out."""
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
     from PIL import Image
 
-    from paneldraw.framebuffer.arguments import Antialias, Int, Level, Real
+    from paneldraw.framebuffer.arguments import Antialias, Int, Level, Real, Str
     from paneldraw.framebuffer.pictures import Dither
     from paneldraw.text import Font
 
@@ -96,6 +96,7 @@ class Framebuffer(Shapes):
         for name, side in (("width", width), ("height", height)):
             if not 1 <= side <= LARGEST:
                 raise ValueError(f"{name} must be from 1 to {LARGEST} pixels, not {side}")
+        depth = size("depth", depth)
         if depth not in _DEPTHS:
             raise ValueError(f"depth must be 1, 2, 4 or 8 bits a pixel, not {depth!r}")
         memory = np.zeros(width * height, np.uint8)
@@ -138,14 +139,14 @@ class Framebuffer(Shapes):
 
     def text(
         self,
-        s: str,
+        s: Str,
         x: Real,
         y: Real,
         c: Level = None,
         *,
         font: Font | None = None,
-        anchor: str = "lt",
-        op: str = "over",
+        anchor: Str = "lt",
+        op: Str = "over",
     ) -> None:
         """Write text.
 
@@ -219,11 +220,11 @@ class Framebuffer(Shapes):
 
     # -- As a picture
 
-    def to_image(self, scale: int = 1) -> Image.Image:
+    def to_image(self, scale: Int = 1) -> Image.Image:
         """Return a Pillow image, mode ``1`` for one bit a pixel, else ``L``, each pixel `scale` x `scale` large."""
         return pictures.to_image(self.pixels, self.surface.max_level, scale)
 
-    def save(self, path: str | PathLike[str], scale: int = 1) -> None:
+    def save(self, path: str | PathLike[str], scale: Int = 1) -> None:
         """Write the picture to a file; its name's ending says in which format (``.png``, ``.bmp``, ...)."""
         self.to_image(scale).save(path)
 

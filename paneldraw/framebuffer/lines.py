@@ -1,4 +1,4 @@
-# cython: language_level=3, boundscheck=False, wraparound=False, cdivision=True
+# cython: language_level=3, boundscheck=False, wraparound=False, cdivision=True, nonecheck=True
 """The calls that draw points and lines."""
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ else:
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
-    from paneldraw.framebuffer.arguments import AntialiasOrDefault, Level, Real
+    from paneldraw.framebuffer.arguments import AntialiasOrDefault, Level, Real, Str
     from paneldraw.raster.surface import Surface
 
 _NEAR_256THS = cython.declare(cython.longlong, 1 << 26)
@@ -77,7 +77,7 @@ class Lines:
         """The anti-aliasing of a call, as a Supersample."""
         return as_samples(self._antialias if antialias is ... else antialias)
 
-    def pixel(self, x: Real, y: Real, c: Level = None, *, op: str = "over") -> int | None:
+    def pixel(self, x: Real, y: Real, c: Level = None, *, op: Str = "over") -> int | None:
         """Paint one pixel with level `c`, or, with no level given, return the level it has (0 outside)."""
         x = min(max(whole("x", x), -1), LARGEST)
         y = min(max(whole("y", y), -1), LARGEST)
@@ -88,12 +88,12 @@ class Lines:
         self.surface.point(x, y)
         return None
 
-    def hline(self, x: Real, y: Real, w: Real, c: Level = None, *, op: str = "over") -> None:
+    def hline(self, x: Real, y: Real, w: Real, c: Level = None, *, op: Str = "over") -> None:
         """Draw a horizontal line of `w` pixels from (x, y) to the right."""
         self._dip(c, op)
         self._block(whole("x", x), whole("y", y), not_negative("w", whole("w", w)), 1)
 
-    def vline(self, x: Real, y: Real, h: Real, c: Level = None, *, op: str = "over") -> None:
+    def vline(self, x: Real, y: Real, h: Real, c: Level = None, *, op: Str = "over") -> None:
         """Draw a vertical line of `h` pixels from (x, y) downward."""
         self._dip(c, op)
         self._block(whole("x", x), whole("y", y), 1, not_negative("h", whole("h", h)))
@@ -118,9 +118,9 @@ class Lines:
         c: Level = None,
         *,
         width: Real = 1,
-        cap: str = "square",
+        cap: Str = "square",
         antialias: AntialiasOrDefault = ...,
-        op: str = "over",
+        op: Str = "over",
     ) -> None:
         """Draw the line from (x1, y1) to (x2, y2), both end points included.
 
@@ -188,9 +188,7 @@ class Lines:
             bresenham_far(self.surface, x1, y1, x2, y2)
 
     @cython.cfunc
-    def _thick(
-        self, x1: Any, y1: Any, x2: Any, y2: Any, width: Any, square: cython.bint, samples: Supersample
-    ) -> Any:
+    def _thick(self, x1: Any, y1: Any, x2: Any, y2: Any, width: Any, square: cython.bint, samples: Supersample) -> Any:
         x1, y1, x2, y2 = to_256ths("x1", x1), to_256ths("y1", y1), to_256ths("x2", x2), to_256ths("y2", y2)
         if max(abs(x1), abs(y1), abs(x2), abs(y2)) <= _NEAR_256THS and width <= _WIDE_256THS:
             slab(self.surface, x1, y1, x2, y2, width, square, samples.n, samples.corner)
@@ -203,9 +201,9 @@ class Lines:
         c: Level = None,
         *,
         width: Real = 1,
-        cap: str = "square",
+        cap: Str = "square",
         antialias: AntialiasOrDefault = ...,
-        op: str = "over",
+        op: Str = "over",
     ) -> None:
         """Draw many lines in one call: as `line` for each row (x1, y1, x2, y2) of an array of shape (n, 4)."""
         rows = table("segments", segments, 4)
@@ -239,7 +237,7 @@ class Lines:
                     samples.corner,
                 )
 
-    def points(self, xy: ArrayLike, c: Level = None, *, op: str = "over") -> None:
+    def points(self, xy: ArrayLike, c: Level = None, *, op: Str = "over") -> None:
         """Paint many pixels in one call: the rows (x, y) of an array of shape (n, 2)."""
         rows = table("xy", xy, 2)
         self._dip(c, op)

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from paneldraw.framebuffer.arguments import size
+
 if TYPE_CHECKING:
     from PIL import Image
 
@@ -21,6 +23,8 @@ def to_image(levels: Levels, max_level: int, scale: int = 1) -> Image.Image:
     """Return a Pillow image: mode ``1`` for two levels, ``L`` from black to white for more."""
     from PIL import Image
 
+    if size("scale", scale) < 1:
+        raise ValueError(f"scale must be 1 or more pixels a pixel, not {scale}")
     if scale != 1:
         levels = levels.repeat(scale, axis=0).repeat(scale, axis=1)
     gray = np.minimum(levels, max_level).astype(np.uint16) * 255 // max_level
@@ -79,6 +83,9 @@ def _image_to_gray(image: Image.Image) -> tuple[Levels, Levels | None]:
     if "A" in image.getbands() or "transparency" in image.info:
         image = image.convert("RGBA")
         alpha = np.asarray(image.getchannel("A"))
+    if image.mode.startswith("I;16"):
+        # Pillow's conversion would cut off at 255 what is brighter.
+        return (np.asarray(image) >> 8).astype(np.uint8), None
     return np.asarray(image.convert("L")), alpha
 
 

@@ -1,4 +1,4 @@
-# cython: language_level=3, boundscheck=False, wraparound=False, cdivision=True
+# cython: language_level=3, boundscheck=False, wraparound=False, cdivision=True, nonecheck=True
 """The calls that draw shapes."""
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ else:
     from paneldraw.raster.curves import circle, circle_far
 
 if TYPE_CHECKING:
-    from paneldraw.framebuffer.arguments import Level, Real
+    from paneldraw.framebuffer.arguments import Level, Real, Str
 
 _LARGE_RADIUS = cython.declare(cython.longlong, 1 << 14)
 
@@ -28,7 +28,7 @@ class Shapes(Lines):
     """The calls that draw shapes, outlined or filled."""
 
     def rect(
-        self, x: Real, y: Real, w: Real, h: Real, c: Level = None, fill: bool = False, *, op: str = "over"
+        self, x: Real, y: Real, w: Real, h: Real, c: Level = None, fill: bool = False, *, op: Str = "over"
     ) -> None:
         """Draw a rectangle of `w` x `h` pixels, its top-left pixel at (x, y): the outline, or with `fill` all of it.
 
@@ -45,7 +45,7 @@ class Shapes(Lines):
             self._block(x, y + 1, 1, h - 2)
             self._block(x + w - 1, y + 1, 1, h - 2)
 
-    def circle(self, x: Real, y: Real, r: Real, c: Level = None, fill: bool = False, *, op: str = "over") -> None:
+    def circle(self, x: Real, y: Real, r: Real, c: Level = None, fill: bool = False, *, op: Str = "over") -> None:
         """Draw the midpoint circle of radius `r` around (x, y): its outline, or with `fill` the disc within it.
 
         A radius of 0 draws one pixel. The disc ends where the outline does.
