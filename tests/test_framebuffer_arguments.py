@@ -136,7 +136,7 @@ def test_sizes_are_in_range(package, name, bad):
 
 @pytest.mark.parametrize("bad", [0, -1, 3, 5, 16, 2**70])
 def test_depths_are_known(package, bad):
-    with pytest.raises(ValueError, match="^depth must be 1, 2, 4 or 8 bits a pixel, not "):
+    with pytest.raises(ValueError, match=r"^depth must be 1, 2, 4 or 8 bits a pixel, not "):
         package.Framebuffer(8, 8, bad)
 
 
@@ -148,39 +148,39 @@ def test_framebuffers_take_no_other_arguments(package):
     with pytest.raises(TypeError):
         package.Framebuffer(8, 8, 1, None)
     for bad in (4, True, "4"):
-        with pytest.raises(TypeError, match="^antialias must be None or a Supersample"):
+        with pytest.raises(TypeError, match=r"^antialias must be None or a Supersample"):
             package.Framebuffer(8, 8, antialias=bad)
 
 
 @pytest.mark.parametrize("bad", [0, 17, -1, 2**70])
 def test_numbers_of_samples_are_in_range(package, bad):
-    with pytest.raises(ValueError, match="^n must be from 1 to 16"):
+    with pytest.raises(ValueError, match=r"^n must be from 1 to 16"):
         package.Supersample(bad)
 
 
 @pytest.mark.parametrize("bad", [2.0, True, "4", None, 1j])
 def test_numbers_of_samples_are_whole(package, bad):
-    with pytest.raises(TypeError, match="^n must be a whole number"):
+    with pytest.raises(TypeError, match=r"^n must be a whole number"):
         package.Supersample(bad)
 
 
 @pytest.mark.parametrize("bad", ["middle", "", None, 1])
 def test_reference_points_are_known(package, bad):
-    with pytest.raises(ValueError, match='^reference must be "center" or "corner", not '):
+    with pytest.raises(ValueError, match=r'^reference must be "center" or "corner", not '):
         package.Supersample(4, bad)
 
 
 @pytest.mark.parametrize("bad", [0, -1])
 def test_scales_are_positive(fb, tmp_path, bad):
-    with pytest.raises(ValueError, match="^scale must be 1 or more"):
+    with pytest.raises(ValueError, match=r"^scale must be 1 or more"):
         fb.to_image(bad)
-    with pytest.raises(ValueError, match="^scale must be 1 or more"):
+    with pytest.raises(ValueError, match=r"^scale must be 1 or more"):
         fb.save(tmp_path / "a.png", bad)
 
 
 @pytest.mark.parametrize("bad", [1.5, "2", None])
 def test_scales_are_whole(fb, bad):
-    with pytest.raises(TypeError, match="^scale must be a whole number"):
+    with pytest.raises(TypeError, match=r"^scale must be a whole number"):
         fb.to_image(bad)
 
 
