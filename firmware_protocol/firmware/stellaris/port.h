@@ -1,0 +1,36 @@
+/* A Stellaris LM3S811 evaluation board: Cortex-M3, a 96 x 16 panel on I2C. */
+#ifndef PANELDRAW_PORT_H
+#define PANELDRAW_PORT_H
+
+#include <stdint.h>
+
+#define PD_RING_SIZE 2048
+#define PD_TX_SIZE 128
+#define PD_MAX_PAYLOAD 250
+#define PD_ADDRESS 0x3D
+#define PD_CONTROLLER "ssd0303"
+#define PD_WIDTH 96
+#define PD_HEIGHT 16
+#define PD_FIRMWARE "paneldraw-lm3s811 1.0"
+#define PD_RATES {115200UL}
+#define PD_RESET_LINE 0
+#define PD_CONTROL_EACH 1
+
+#define PD_FLASH
+#define PD_READ_FLASH(p) (*(p))
+#define PD_READ_FLASH_LONG(p) (*(p))
+#define PD_GUARDED(statement) \
+    do { \
+        __asm__ volatile("cpsid i" ::: "memory"); \
+        statement; \
+        __asm__ volatile("cpsie i" ::: "memory"); \
+    } while (0)
+
+static inline uint16_t pd_crc(uint16_t crc, uint8_t byte)
+{
+    uint16_t mixed = (uint16_t)(crc >> 8 ^ byte);
+    mixed ^= mixed >> 4;
+    return (uint16_t)(crc << 8 ^ mixed << 12 ^ mixed << 5 ^ mixed);
+}
+
+#endif
