@@ -11,6 +11,8 @@ MODULES = (
     "paneldraw.raster.supersample",
     "paneldraw.raster.lines",
     "paneldraw.raster.thick",
+    "paneldraw.raster.polygons",
+    "paneldraw.raster.strokes",
     "paneldraw.raster.outlines",
     "paneldraw.raster.curves",
     "paneldraw.raster.masks",

@@ -1,7 +1,8 @@
 cdef class Surface:
     cdef unsigned char *pixels
     cdef readonly object memory
-    cdef object scratch
+    cdef object scratch, kept
+    cdef char *room
     cdef Surface mask
     cdef readonly Py_ssize_t origin, stride, width, height
     cdef readonly Py_ssize_t left, top, right, bottom
@@ -11,6 +12,7 @@ cdef class Surface:
     cdef int *row
 
     cdef object reserve(self)
+    cdef object make_room(self, Py_ssize_t size)
     cdef Surface single_row(self)
     cdef void dip(self, int level, int op) noexcept nogil
     cdef void point(self, Py_ssize_t x, Py_ssize_t y) noexcept nogil

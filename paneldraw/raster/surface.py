@@ -35,6 +35,7 @@ class Surface:
         self.memory = memory
         self.scratch = None
         self.mask = None
+        self.kept = None
         if cython.compiled:
             address: cython.size_t = memory.__array_interface__["data"][0]
             self.pixels = cython.cast(cython.p_uchar, address + origin)
@@ -62,6 +63,13 @@ class Surface:
             self.row = cython.cast(cython.p_int, cython.cast(cython.p_char, self.scratch))
         else:
             self.row = [0] * (self.width + 2)
+
+    @cython.cfunc
+    def make_room(self, size: cython.Py_ssize_t) -> object:
+        """Let `room` point to working memory of `size` bytes or more, kept from call to call. In compiled code only."""
+        if self.kept is None or len(self.kept) < size:
+            self.kept = bytearray(2 * size)
+            self.room = self.kept
 
     @cython.cfunc
     def single_row(self) -> Surface:
