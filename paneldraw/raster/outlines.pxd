@@ -7,4 +7,6 @@ cdef class Outline:
 cdef class Polyline(Outline):
     cdef long long *points
     cdef Py_ssize_t count
-    cdef bint closed
+    cdef bint closed, dda
+    cdef long long *pattern
+    cdef Py_ssize_t lengths

@@ -8,10 +8,10 @@ from typing import Any
 import cython
 
 if cython.compiled:
-    from cython.cimports.paneldraw.raster.lines import bresenham
+    from cython.cimports.paneldraw.raster.lines import dashed
     from cython.cimports.paneldraw.raster.surface import Surface
 else:
-    from paneldraw.raster.lines import bresenham
+    from paneldraw.raster.lines import dashed
     from paneldraw.raster.surface import Surface
 
 
@@ -55,7 +55,7 @@ class Outline:
 
 @cython.cclass
 class Polyline(Outline):
-    """Bresenham's lines from point to point; coordinates within +-2**29."""
+    """Lines one pixel wide from point to point, dashed where there is a pattern; coordinates within +-2**29."""
 
     points: cython.p_longlong
     count: cython.Py_ssize_t
@@ -66,11 +66,15 @@ class Polyline(Outline):
     @cython.exceptval(check=False)
     def trace(self, surface: Surface) -> cython.void:
         i: cython.Py_ssize_t
+        j: cython.Py_ssize_t
         points: cython.p_longlong = self.points
-        last: cython.Py_ssize_t = 2 * (self.count - 1)
-        if self.count == 1:
-            bresenham(surface, points[0], points[1], points[0], points[1])
-        for i in range(0, last, 2):
-            bresenham(surface, points[i], points[i + 1], points[i + 2], points[i + 3])
-        if self.closed:
-            bresenham(surface, points[last], points[last + 1], points[0], points[1])
+        phase: cython.longlong = 0
+        lines: cython.Py_ssize_t = self.count if self.closed and self.count > 2 else max(self.count - 1, 1)
+        for i in range(lines):
+            j = (i + 1) % self.count
+            x1: cython.longlong = points[2 * i]
+            y1: cython.longlong = points[2 * i + 1]
+            x2: cython.longlong = points[2 * j]
+            y2: cython.longlong = points[2 * j + 1]
+            dashed(surface, x1, y1, x2, y2, self.pattern, self.lengths, phase, self.dda)
+            phase += max(abs(x2 - x1), abs(y2 - y1))
