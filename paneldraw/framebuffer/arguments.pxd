@@ -3,6 +3,15 @@ from paneldraw.raster.supersample cimport Supersample
 cdef long long NEAR
 cdef long long FAR
 
+cdef long long FIXED_REACH
+
+cdef class Points:
+    cdef object kept
+    cdef readonly list exact
+    cdef long long *values
+    cdef Py_ssize_t count
+
 cdef long long quick(object value) noexcept
+cdef long long quick_256ths(object value) noexcept
 cdef long long *pointer_to_int64(object array) except? NULL
 cdef unsigned char *pointer_to_bytes(object array) except? NULL

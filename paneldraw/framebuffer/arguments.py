@@ -10,9 +10,8 @@ from typing import TYPE_CHECKING, Any, SupportsFloat, SupportsIndex, TypeAlias
 import cython
 import numpy as np
 from cython.cimports.cpython.long import PyLong_AsLongLongAndOverflow
+from cython.cimports.libc.math import floor
 from numpy.typing import NDArray
-
-from paneldraw.raster.surface import OPS
 
 if not cython.compiled:
     from paneldraw.raster.supersample import Supersample
@@ -34,6 +33,9 @@ LARGEST = 65536
 NEAR = cython.declare(cython.longlong, 1 << 29)
 FAR = cython.declare(cython.longlong, 1 << 62)
 
+# Pixels that are handled in 256ths in 64-bit arithmetic.
+FIXED_REACH = cython.declare(cython.longlong, 1 << 18)
+
 _ALIASED = Supersample(1)
 
 
@@ -50,6 +52,71 @@ def quick(value: Any) -> cython.longlong:
     if overflow == 0 and -NEAR <= number <= NEAR:
         return number
     return FAR
+
+
+@cython.cfunc
+@cython.exceptval(check=False)
+def quick_256ths(value: Any) -> cython.longlong:
+    """`value` in 256ths, if it is an int or a float within +-FIXED_REACH, else FAR."""
+    if type(value) is float:
+        exact: cython.double = value
+        if not -FIXED_REACH <= exact <= FIXED_REACH:
+            return FAR
+        exact *= 256
+        below: cython.longlong = cython.cast(cython.longlong, floor(exact))
+        return below + (exact - below >= 0.5)
+    number: cython.longlong = quick(value)
+    return number * 256 if -FIXED_REACH <= number <= FIXED_REACH else FAR
+
+
+@cython.cclass
+class Points:
+    """The points of a path as a call takes them, read into one array of numbers.
+
+    Parameters
+    ----------
+    name : str
+        What the call names them.
+    source : array_like
+        Pairs, shape (n, 2), or x and y in turn, as MicroPython's framebuf has them.
+    fixed : bool
+        Whether to read 256ths of a pixel or whole pixels.
+    """
+
+    def __init__(self, name: Any, source: Any, fixed: cython.bint) -> None:
+        i: cython.Py_ssize_t
+        number: cython.longlong
+        items = in_turn(name, source)
+        self.count = len(items) // 2
+        self.exact = None
+        if cython.compiled:
+            self.kept = bytearray(8 * len(items) + 8)
+            self.values = cython.cast(cython.p_longlong, cython.cast(cython.p_char, self.kept))
+        else:
+            self.values = [0] * len(items)
+        for i in range(len(items)):
+            number = quick_256ths(items[i]) if fixed else quick(items[i])
+            if number == FAR:
+                exact = to_256ths(name, items[i]) if fixed else whole(name, items[i])
+                if abs(exact) > (FIXED_REACH * 256 if fixed else NEAR):
+                    self.exact = [to_256ths(name, item) if fixed else whole(name, item) for item in items]
+                    return
+                number = exact
+            self.values[i] = number
+
+
+def in_turn(name: str, source: Any) -> list[Any]:
+    """The points of an array_like as a list of x and y in turn."""
+    items = source.tolist() if hasattr(source, "tolist") else source
+    try:
+        items = list(items)
+        if items and isinstance(items[0], (list, tuple, np.ndarray)):
+            items = [number for x, y in items for number in (x, y)]
+    except (TypeError, ValueError):
+        raise ValueError(f"{name} must hold points (x, y), as an array of shape (n, 2) or x and y in turn") from None
+    if len(items) % 2:
+        raise ValueError(f"{name} must hold an x and a y for each point, and holds {len(items)} numbers")
+    return items
 
 
 def real(name: str, value: Any) -> int | float:
@@ -106,14 +173,6 @@ def not_negative(name: str, number: int) -> int:
     return number
 
 
-def operation(op: Any) -> int:
-    """The number that `Surface.dip` takes."""
-    try:
-        return OPS[op]
-    except (KeyError, TypeError):
-        raise ValueError(f"op must be one of {', '.join(map(repr, OPS))}, not {op!r}") from None
-
-
 def as_samples(antialias: Any) -> Supersample:
     """A call's anti-aliasing as a Supersample; None is one sample a pixel."""
     if antialias is None:
@@ -123,11 +182,25 @@ def as_samples(antialias: Any) -> Supersample:
     return antialias
 
 
-def reaches(cap: Any) -> bool:
-    """Whether a line with this cap goes on for half a width beyond its end points."""
-    if cap not in ("square", "butt"):
-        raise ValueError(f'cap must be "square" or "butt", not {cap!r}')
-    return cap == "square"
+def choice(name: str, value: Any, choices: dict[str, Int]) -> Int:
+    """The number by which the raster modules know one of a few words."""
+    try:
+        return choices[value]
+    except (KeyError, TypeError):
+        raise ValueError(f"{name} must be one of {', '.join(map(repr, choices))}, not {value!r}") from None
+
+
+def dash_lengths(dash: Any) -> list[Int]:
+    """The lengths of a dash pattern in 256ths of a pixel, an even number of them; none for no pattern."""
+    if dash is None:
+        return []
+    try:
+        lengths = [to_256ths("dash", length) for length in dash]
+    except TypeError:
+        raise TypeError(f"dash must be a sequence of lengths in pixels, such as (4, 2), not {dash!r}") from None
+    if not lengths or min(lengths) < 256:
+        raise ValueError(f"dash must hold lengths of 1 pixel or more, drawn and left out in turn, not {dash!r}")
+    return lengths if len(lengths) % 2 == 0 else lengths + lengths
 
 
 def line_width(width: Any) -> int:

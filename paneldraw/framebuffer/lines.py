@@ -1,4 +1,4 @@
-# cython: language_level=3, boundscheck=False, wraparound=False, cdivision=True, nonecheck=True
+# cython: language_level=3, boundscheck=False, wraparound=False, cdivision=True
 """The calls that draw points and lines."""
 
 from __future__ import annotations
@@ -6,78 +6,62 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import cython
+import numpy as np
 
 from paneldraw.framebuffer.arguments import (
     LARGEST,
     as_samples,
+    choice,
+    dash_lengths,
     integers,
     line_width,
     not_negative,
-    operation,
-    reaches,
-    size,
     table,
     to_256ths,
     whole,
 )
+from paneldraw.raster.strokes import CAPS
 
 if cython.compiled:
-    from cython.cimports.paneldraw.framebuffer.arguments import FAR, NEAR, pointer_to_int64, quick
-    from cython.cimports.paneldraw.raster.lines import bresenham, bresenham_far
+    from cython.cimports.paneldraw.framebuffer.arguments import (
+        FAR,
+        FIXED_REACH,
+        NEAR,
+        Points,
+        pointer_to_int64,
+        quick,
+        quick_256ths,
+    )
+    from cython.cimports.paneldraw.raster.lines import bresenham, dashed, far
     from cython.cimports.paneldraw.raster.supersample import Supersample
     from cython.cimports.paneldraw.raster.thick import slab, slab_far
 else:
-    from paneldraw.framebuffer.arguments import FAR, NEAR, pointer_to_int64, quick
-    from paneldraw.raster.lines import bresenham, bresenham_far
+    from paneldraw.framebuffer.arguments import FAR, FIXED_REACH, NEAR, Points, pointer_to_int64, quick, quick_256ths
+    from paneldraw.framebuffer.paths import Paths
+    from paneldraw.raster.lines import bresenham, dashed, far
     from paneldraw.raster.supersample import Supersample
     from paneldraw.raster.thick import slab, slab_far
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from numpy.typing import ArrayLike
 
-    from paneldraw.framebuffer.arguments import AntialiasOrDefault, Level, Real, Str
-    from paneldraw.raster.surface import Surface
+    from paneldraw.framebuffer.arguments import AntialiasOrDefault, Level, Real
 
-_NEAR_256THS = cython.declare(cython.longlong, 1 << 26)
-_WIDE_256THS = cython.declare(cython.longlong, 1 << 20)
+_ALGORITHMS = {"bresenham": 0, "dda": 1}
+_SQUARE = cython.declare(cython.int, CAPS["square"])
+_ROUND = cython.declare(cython.int, CAPS["round"])
+
+# Lines wider than this, in 256ths, are left to Python's arithmetic.
+_WIDE = cython.declare(cython.longlong, 1 << 20)
 
 
 @cython.cclass
-class Lines:
-    """A surface to draw on, and the calls that draw points and lines on it."""
+class Lines(Paths):
+    """The calls that draw points and lines."""
 
-    surface: Surface
-    _antialias: Any
-
-    @cython.cfunc
-    @cython.inline
-    def _dip(self, c: Any, op: Any) -> Any:
-        """Fill the ink for level `c` and operation `op`."""
-        code: cython.int = 0 if op == "over" else operation(op)
-        if c is None:
-            self.surface.dip(self.surface.max_level, code)
-        else:
-            self.surface.dip(self._level(c), code)
-
-    @cython.cfunc
-    @cython.inline
-    @cython.exceptval(-1)
-    def _level(self, c: Any) -> cython.int:
-        level: cython.longlong = quick(c)
-        if level == FAR:
-            if isinstance(c, float):
-                raise TypeError("c must be a whole number, and is a float; round it first")
-            level = min(max(size("c", c), -1), 256)
-        if not 0 <= level <= self.surface.max_level:
-            raise ValueError(f"c must be a level from 0 to {self.surface.max_level}, not {c}")
-        return level
-
-    @cython.cfunc
-    def _samples(self, antialias: Any) -> Supersample:
-        """The anti-aliasing of a call, as a Supersample."""
-        return as_samples(self._antialias if antialias is ... else antialias)
-
-    def pixel(self, x: Real, y: Real, c: Level = None, *, op: Str = "over") -> int | None:
+    def pixel(self, x: Real, y: Real, c: Level = None, *, op: str = "over") -> int | None:
         """Paint one pixel with level `c`, or, with no level given, return the level it has (0 outside)."""
         x = min(max(whole("x", x), -1), LARGEST)
         y = min(max(whole("y", y), -1), LARGEST)
@@ -88,26 +72,15 @@ class Lines:
         self.surface.point(x, y)
         return None
 
-    def hline(self, x: Real, y: Real, w: Real, c: Level = None, *, op: Str = "over") -> None:
+    def hline(self, x: Real, y: Real, w: Real, c: Level = None, *, op: str = "over") -> None:
         """Draw a horizontal line of `w` pixels from (x, y) to the right."""
         self._dip(c, op)
         self._block(whole("x", x), whole("y", y), not_negative("w", whole("w", w)), 1)
 
-    def vline(self, x: Real, y: Real, h: Real, c: Level = None, *, op: Str = "over") -> None:
+    def vline(self, x: Real, y: Real, h: Real, c: Level = None, *, op: str = "over") -> None:
         """Draw a vertical line of `h` pixels from (x, y) downward."""
         self._dip(c, op)
         self._block(whole("x", x), whole("y", y), 1, not_negative("h", whole("h", h)))
-
-    @cython.cfunc
-    def _block(self, x: Any, y: Any, w: Any, h: Any) -> Any:
-        """Ink the pixels ``x <= column < x + w`` of the rows ``y <= row < y + h``."""
-        row: cython.Py_ssize_t
-        first: cython.Py_ssize_t = min(max(x, 0), LARGEST)
-        last: cython.Py_ssize_t = min(max(x + w, 0), LARGEST)
-        top: cython.Py_ssize_t = min(max(y, self.surface.top), self.surface.bottom)
-        bottom: cython.Py_ssize_t = max(min(y + h, self.surface.bottom), top)
-        for row in range(top, bottom):
-            self.surface.span(row, first, last)
 
     def line(
         self,
@@ -118,9 +91,11 @@ class Lines:
         c: Level = None,
         *,
         width: Real = 1,
-        cap: Str = "square",
+        cap: str = "square",
+        dash: Iterable[Real] | None = None,
+        algorithm: str = "bresenham",
         antialias: AntialiasOrDefault = ...,
-        op: Str = "over",
+        op: str = "over",
     ) -> None:
         """Draw the line from (x1, y1) to (x2, y2), both end points included.
 
@@ -134,8 +109,14 @@ class Lines:
         c : int, optional
         width : int or float, default 1
             Thickness in pixels, above 0.
-        cap : {"square", "butt"}
-            Whether a rectangle reaches half a width beyond the end points or ends there.
+        cap : {"square", "butt", "round"}
+            Whether a thick line reaches half a width beyond its end points, ends there, or ends in half a disc (a
+            polygon within a 512th of a pixel of it). An aliased line of width 1 has no caps.
+        dash : iterable of int or float, optional
+            Lengths in pixels, each 1 or more, drawn and left out in turn from where the line begins. An aliased line
+            of width 1 counts pixels; others measure along the line, and their dashes are cut square.
+        algorithm : {"bresenham", "dda"}
+            How the pixels of an aliased line of width 1 are found. They are the same; the DDA is there to compare.
         antialias : Supersample or None, optional
             Default: the framebuffer's.
         op : {"over", "xor", "add", "max", "clear"}
@@ -143,7 +124,7 @@ class Lines:
         Raises
         ------
         ValueError
-            If `width` is not above 0 or `cap` or `op` is none of these.
+            If `width` is below 1/256, a length of `dash` is below 1, or `cap`, `algorithm` or `op` is none of these.
 
         Notes
         -----
@@ -163,10 +144,20 @@ class Lines:
         if antialias is ...:
             antialias = self._antialias
         self._dip(c, op)
-        if antialias is None and width == 1 and cap == "square":
+        if antialias is None and width == 1 and dash is None and algorithm == "bresenham" and cap in CAPS:
             self._thin(x1, y1, x2, y2)
+            return
+        shape: cython.int = choice("cap", cap, CAPS)
+        dda: cython.bint = choice("algorithm", algorithm, _ALGORITHMS)
+        samples: Supersample = as_samples(antialias)
+        wide = line_width(width)
+        if antialias is None and wide == 256:
+            self._thin_path(Points("line", (x1, y1, x2, y2), False), False, dash_lengths(dash), dda)
+        elif dash is None and shape != _ROUND:
+            self._thick(x1, y1, x2, y2, wide, shape == _SQUARE, samples)
         else:
-            self._thick(x1, y1, x2, y2, line_width(width), reaches(cap), as_samples(antialias))
+            path = Points("line", (x1, y1, x2, y2), True)
+            self._stroke(path, False, wide, shape, 0, dash_lengths(dash), samples)
 
     @cython.cfunc
     @cython.inline
@@ -185,12 +176,27 @@ class Lines:
         if max(abs(x1), abs(y1), abs(x2), abs(y2)) <= NEAR:
             bresenham(self.surface, x1, y1, x2, y2)
         else:
-            bresenham_far(self.surface, x1, y1, x2, y2)
+            far(self.surface, x1, y1, x2, y2, [], 0)
 
     @cython.cfunc
+    @cython.inline
     def _thick(self, x1: Any, y1: Any, x2: Any, y2: Any, width: Any, square: cython.bint, samples: Supersample) -> Any:
-        x1, y1, x2, y2 = to_256ths("x1", x1), to_256ths("y1", y1), to_256ths("x2", x2), to_256ths("y2", y2)
-        if max(abs(x1), abs(y1), abs(x2), abs(y2)) <= _NEAR_256THS and width <= _WIDE_256THS:
+        a: cython.longlong = quick_256ths(x1)
+        b: cython.longlong = quick_256ths(y1)
+        c: cython.longlong = quick_256ths(x2)
+        d: cython.longlong = quick_256ths(y2)
+        if a != FAR and b != FAR and c != FAR and d != FAR and width <= _WIDE:
+            slab(self.surface, a, b, c, d, width, square, samples.n, samples.corner)
+        else:
+            x1, y1 = to_256ths("x1", x1), to_256ths("y1", y1)
+            x2, y2 = to_256ths("x2", x2), to_256ths("y2", y2)
+            self._thick_far(x1, y1, x2, y2, width, square, samples)
+
+    @cython.cfunc
+    def _thick_far(
+        self, x1: Any, y1: Any, x2: Any, y2: Any, width: Any, square: cython.bint, samples: Supersample
+    ) -> Any:
+        if max(abs(x1), abs(y1), abs(x2), abs(y2)) <= FIXED_REACH * 256 and width <= _WIDE:
             slab(self.surface, x1, y1, x2, y2, width, square, samples.n, samples.corner)
         else:
             slab_far(self.surface, x1, y1, x2, y2, width, square, samples.n, samples.corner)
@@ -201,52 +207,86 @@ class Lines:
         c: Level = None,
         *,
         width: Real = 1,
-        cap: Str = "square",
+        cap: str = "square",
+        dash: Iterable[Real] | None = None,
+        algorithm: str = "bresenham",
         antialias: AntialiasOrDefault = ...,
-        op: Str = "over",
+        op: str = "over",
     ) -> None:
-        """Draw many lines in one call: as `line` for each row (x1, y1, x2, y2) of an array of shape (n, 4)."""
+        """Draw many lines in one call: as `line` for each row (x1, y1, x2, y2) of an array of shape (n, 4).
+
+        Examples
+        --------
+        >>> from paneldraw import Framebuffer
+        >>> fb = Framebuffer(8, 3)
+        >>> fb.lines([[0, 0, 7, 0], [0, 2, 7, 2]])
+        >>> print(fb)
+        ########
+        ........
+        ########
+        """
         rows = table("segments", segments, 4)
         if antialias is ...:
             antialias = self._antialias
         self._dip(c, op)
-        thin: cython.bint = antialias is None and width == 1 and cap == "square"
-        square: cython.bint = reaches(cap)
+        shape: cython.int = choice("cap", cap, CAPS)
+        dda: cython.bint = choice("algorithm", algorithm, _ALGORITHMS)
         samples: Supersample = as_samples(antialias)
-        wide: cython.longlong = min(line_width(width), _WIDE_256THS + 1)
-        whole = integers(rows, 1 if thin else 256, NEAR if thin else _NEAR_256THS)
-        if whole is None or wide > _WIDE_256THS:
+        pattern = dash_lengths(dash)
+        wide = line_width(width)
+        thin: cython.bint = antialias is None and wide == 256
+        numbers = integers(rows, 1 if thin else 256, NEAR if thin else FIXED_REACH * 256)
+        if numbers is None or wide > _WIDE or (not thin and (pattern or shape == _ROUND)):
+            style = {"width": width, "cap": cap, "dash": dash, "algorithm": algorithm, "antialias": antialias}
             for x1, y1, x2, y2 in rows.tolist():
-                self.line(x1, y1, x2, y2, c, width=width, cap=cap, antialias=antialias, op=op)
+                self.line(x1, y1, x2, y2, c, op=op, **style)
             return
-        row: cython.Py_ssize_t
-        points: cython.p_longlong = pointer_to_int64(whole)
-        for row in range(0, 4 * len(whole), 4):
-            if thin:
-                bresenham(self.surface, points[row], points[row + 1], points[row + 2], points[row + 3])
-            else:
-                slab(
-                    self.surface,
-                    points[row],
-                    points[row + 1],
-                    points[row + 2],
-                    points[row + 3],
-                    wide,
-                    square,
-                    samples.n,
-                    samples.corner,
-                )
+        lengths = np.array([(length + 128) >> 8 for length in pattern], np.int64)
+        if thin:
+            self._thin_lines(numbers, lengths, dda)
+        else:
+            self._thick_lines(numbers, wide, shape == _SQUARE, samples)
 
-    def points(self, xy: ArrayLike, c: Level = None, *, op: Str = "over") -> None:
-        """Paint many pixels in one call: the rows (x, y) of an array of shape (n, 2)."""
+    @cython.cfunc
+    def _thin_lines(self, numbers: Any, lengths: Any, dda: cython.bint) -> Any:
+        row: cython.Py_ssize_t
+        p: cython.p_longlong = pointer_to_int64(numbers)
+        pattern: cython.p_longlong = pointer_to_int64(lengths)
+        count: cython.Py_ssize_t = len(lengths)
+        for row in range(0, 4 * len(numbers), 4):
+            if count or dda:
+                dashed(self.surface, p[row], p[row + 1], p[row + 2], p[row + 3], pattern, count, 0, dda)
+            else:
+                bresenham(self.surface, p[row], p[row + 1], p[row + 2], p[row + 3])
+
+    @cython.cfunc
+    def _thick_lines(self, numbers: Any, width: cython.longlong, square: cython.bint, samples: Supersample) -> Any:
+        row: cython.Py_ssize_t
+        p: cython.p_longlong = pointer_to_int64(numbers)
+        n: cython.int = samples.n
+        for row in range(0, 4 * len(numbers), 4):
+            slab(self.surface, p[row], p[row + 1], p[row + 2], p[row + 3], width, square, n, samples.corner)
+
+    def points(self, xy: ArrayLike, c: Level = None, *, op: str = "over") -> None:
+        """Paint many pixels in one call: the rows (x, y) of an array of shape (n, 2).
+
+        Examples
+        --------
+        >>> from paneldraw import Framebuffer
+        >>> fb = Framebuffer(4, 2)
+        >>> fb.points([[0, 0], [3, 1]])
+        >>> print(fb)
+        #...
+        ...#
+        """
         rows = table("xy", xy, 2)
         self._dip(c, op)
-        whole = integers(rows, 1, NEAR)
-        if whole is None:
+        numbers = integers(rows, 1, NEAR)
+        if numbers is None:
             for x, y in rows.tolist():
                 self.pixel(x, y, self.surface.max_level if c is None else c, op=op)
             return
         row: cython.Py_ssize_t
-        points: cython.p_longlong = pointer_to_int64(whole)
-        for row in range(0, 2 * len(whole), 2):
+        points: cython.p_longlong = pointer_to_int64(numbers)
+        for row in range(0, 2 * len(numbers), 2):
             self.surface.point(points[row], points[row + 1])

@@ -1,4 +1,4 @@
-from paneldraw.framebuffer.lines cimport Lines
+from paneldraw.framebuffer.polygons cimport Polygons
 
-cdef class Shapes(Lines):
+cdef class Shapes(Polygons):
     pass

@@ -14,7 +14,7 @@ if cython.compiled:
     from cython.cimports.paneldraw.raster.curves import circle, circle_far
 else:
     from paneldraw.framebuffer.arguments import NEAR
-    from paneldraw.framebuffer.lines import Lines
+    from paneldraw.framebuffer.polygons import Polygons
     from paneldraw.raster.curves import circle, circle_far
 
 if TYPE_CHECKING:
@@ -24,7 +24,7 @@ _LARGE_RADIUS = cython.declare(cython.longlong, 1 << 14)
 
 
 @cython.cclass
-class Shapes(Lines):
+class Shapes(Polygons):
     """The calls that draw shapes, outlined or filled."""
 
     def rect(

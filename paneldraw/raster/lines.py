@@ -13,11 +13,8 @@ from typing import Any
 import cython
 
 if cython.compiled:
-    from cython.cimports.libc.math import floor
     from cython.cimports.paneldraw.raster.surface import Surface
 else:
-    from math import floor
-
     from paneldraw.raster.surface import Surface
 
 # More steps than a line has.
