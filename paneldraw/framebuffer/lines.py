@@ -237,7 +237,7 @@ class Lines(Paths):
         thin: cython.bint = antialias is None and wide == 256
         numbers = integers(rows, 1 if thin else 256, NEAR if thin else FIXED_REACH * 256)
         if numbers is None or wide > _WIDE or (not thin and (pattern or shape == _ROUND)):
-            style = {"width": width, "cap": cap, "dash": dash, "algorithm": algorithm, "antialias": antialias}
+            style: Any = {"width": width, "cap": cap, "dash": dash, "algorithm": algorithm, "antialias": antialias}
             for x1, y1, x2, y2 in rows.tolist():
                 self.line(x1, y1, x2, y2, c, op=op, **style)
             return

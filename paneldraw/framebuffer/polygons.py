@@ -111,7 +111,8 @@ class Polygons(Lines):
         .#...#.
         #######
         """
-        self.poly(0, 0, ((x1, y1), (x2, y2), (x3, y3)), c, fill, width=width, join=join, antialias=antialias, op=op)
+        corners: Any = (x1, y1, x2, y2, x3, y3)
+        self.poly(0, 0, corners, c, fill, width=width, join=join, antialias=antialias, op=op)
 
     def poly(
         self,

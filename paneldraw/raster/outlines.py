@@ -60,6 +60,9 @@ class Polyline(Outline):
     points: cython.p_longlong
     count: cython.Py_ssize_t
     closed: cython.bint
+    pattern: cython.p_longlong
+    lengths: cython.Py_ssize_t
+    dda: cython.bint
 
     @cython.cfunc
     @cython.nogil

@@ -7,6 +7,8 @@ Vertices come in 256ths of a pixel; the lattice of reference points and the rule
 
 from __future__ import annotations
 
+from typing import Any
+
 import cython
 
 if cython.compiled:
@@ -49,7 +51,7 @@ def polygons(
     nonzero: cython.bint,
     n: cython.int,
     corner: cython.bint,
-) -> object:
+) -> Any:
     """Fill the shape with these contours, by the non-zero rule or else by the even-odd one.
 
     Contour k is closed and has the points (x, y) from number ``ends[k - 1]`` (0 for the first) up to ``ends[k]``. It
@@ -57,7 +59,7 @@ def polygons(
     """
     total: cython.Py_ssize_t = ends[contours - 1] if contours else 0
     rows: cython.Py_ssize_t = surface.bottom - surface.top
-    edges: cython.pointer(Edge)
+    edges: cython.pointer[Edge]
     starting: cython.p_int
     active: cython.p_int
     spans: cython.p_Py_ssize_t
@@ -90,7 +92,7 @@ def _collect(
     contours: cython.Py_ssize_t,
     n: cython.int,
     corner: cython.bint,
-    edges: cython.pointer(Edge),
+    edges: cython.pointer[Edge],
     starting: cython.p_int,
 ) -> cython.int:
     """Find the edges that cross visible sub-scanlines; chain those that start in the same row. Returns their number."""
@@ -151,7 +153,7 @@ def _fill(
     surface: Surface,
     nonzero: cython.bint,
     n: cython.int,
-    edges: cython.pointer(Edge),
+    edges: cython.pointer[Edge],
     starting: cython.p_int,
     active: cython.p_int,
     spans: cython.p_Py_ssize_t,

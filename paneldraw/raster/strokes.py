@@ -7,6 +7,8 @@ the non-zero rule makes one shape of them. Corners are rounded to 256ths of a pi
 
 from __future__ import annotations
 
+from typing import Any
+
 import cython
 
 if cython.compiled:
@@ -33,11 +35,11 @@ class Contours:
         self.kept = bytearray()
         self.kept_ends = bytearray()
         if not cython.compiled:
-            self.points = []
-            self.ends = []
+            self.points: list[Any] = []
+            self.ends: list[Any] = []
 
     @cython.cfunc
-    def add(self, x: cython.double, y: cython.double) -> object:
+    def add(self, x: cython.double, y: cython.double) -> Any:
         """Add a point to the open contour, rounded to whole 256ths."""
         a: cython.longlong = cython.cast(cython.longlong, floor(x + 0.5))
         b: cython.longlong = cython.cast(cython.longlong, floor(y + 0.5))
@@ -53,7 +55,7 @@ class Contours:
         self.count += 1
 
     @cython.cfunc
-    def close(self) -> object:
+    def close(self) -> Any:
         """Close the open contour, turned clockwise as the screen shows it."""
         i: cython.Py_ssize_t = self.ends[self.contours - 1] if self.contours else 0
         j: cython.Py_ssize_t = self.count - 1
@@ -91,7 +93,7 @@ def stroke(
     cap: cython.int,
     end_cap: cython.int,
     join: cython.int,
-) -> object:
+) -> Any:
     """Add the pieces of the stroke along `count` points (x, y), no two neighbors of which are equal.
 
     A single point is a line of no length to the right.
@@ -146,7 +148,7 @@ def _end(
     uy: cython.double,
     half: cython.double,
     cap: cython.int,
-) -> object:
+) -> Any:
     """What a cap adds beyond an end point, in the direction (ux, uy)."""
     if cap == 0:
         return
@@ -171,7 +173,7 @@ def _join(
     uy: cython.double,
     half: cython.double,
     join: cython.int,
-) -> object:
+) -> Any:
     """Fill the wedge on the outer side of a corner, where direction v turns into direction u."""
     cross: cython.double = vx * uy - vy * ux
     dot: cython.double = vx * ux + vy * uy
@@ -196,7 +198,7 @@ def _join(
 @cython.cfunc
 def _fan(
     contours: Contours, x: cython.double, y: cython.double, dx: cython.double, dy: cython.double, angle: cython.double
-) -> object:
+) -> Any:
     """A circular sector from (x + dx, y + dy) clockwise; chords stay within half a 256th of the arc."""
     radius: cython.double = hypot(dx, dy)
     steps: cython.int = 1
@@ -220,9 +222,13 @@ class Dashes:
     bottom) are made, so that the work does not grow with what cannot be seen.
     """
 
-    def __init__(self, contours: Contours, pattern: object, box: object, capacity: cython.Py_ssize_t) -> None:
+    def __init__(self, contours: Contours, pattern: Any, box: Any, capacity: cython.Py_ssize_t) -> None:
         self.contours = contours
         self.pattern = pattern
+        self.left: Any
+        self.top: Any
+        self.right: Any
+        self.bottom: Any
         self.left, self.top, self.right, self.bottom = box
         self.phase = 0
         self.rest = pattern[0]
@@ -236,7 +242,7 @@ class Dashes:
     @cython.cfunc
     def stroke(
         self, path: cython.p_double, count: cython.Py_ssize_t, width: cython.double, cap: cython.int, join: cython.int
-    ) -> object:
+    ) -> Any:
         """Add the pieces of the dashed stroke along an open path of two points or more."""
         i: cython.Py_ssize_t
         last: cython.Py_ssize_t = count - 2
@@ -263,7 +269,7 @@ class Dashes:
     @cython.cfunc
     def _segment(
         self, x: cython.double, y: cython.double, ux: cython.double, uy: cython.double, length: cython.double
-    ) -> object:
+    ) -> Any:
         """Go on for `length` from (x, y) in the direction (ux, uy)."""
         first: cython.double = 0
         last: cython.double = length
@@ -295,7 +301,7 @@ class Dashes:
             self._skip(length - last)
 
     @cython.cfunc
-    def _add(self, x: cython.double, y: cython.double) -> object:
+    def _add(self, x: cython.double, y: cython.double) -> Any:
         """Add a point to the piece, unless it stands there already."""
         i: cython.Py_ssize_t = 2 * self.count
         if i and abs(self.piece[i - 2] - x) + abs(self.piece[i - 1] - y) < 1e-6:
@@ -305,7 +311,7 @@ class Dashes:
         self.count += 1
 
     @cython.cfunc
-    def _finish(self, end_cap: cython.int) -> object:
+    def _finish(self, end_cap: cython.int) -> Any:
         """Stroke the piece, if there is one, and begin anew."""
         if self.count > 1:
             stroke(self.contours, self.piece, self.count, False, self.width, self.cap, end_cap, self.join)
@@ -314,12 +320,12 @@ class Dashes:
         self.count = 0
 
     @cython.cfunc
-    def _next(self) -> object:
+    def _next(self) -> Any:
         self.phase = (self.phase + 1) % len(self.pattern)
         self.rest = self.pattern[self.phase]
 
     @cython.cfunc
-    def _skip(self, length: cython.double) -> object:
+    def _skip(self, length: cython.double) -> Any:
         """Advance the pattern without drawing."""
         self.cap = 0
         length = fmod(length, sum(self.pattern))

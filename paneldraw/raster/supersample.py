@@ -64,7 +64,7 @@ class Supersample:
         self.reference = reference
         self.corner = reference == "corner"
 
-    def __eq__(self, other: object) -> bool:
+    def __eq__(self, other: Any) -> bool:
         if not isinstance(other, Supersample):
             return NotImplemented
         return (self.n, self.reference) == (other.n, other.reference)

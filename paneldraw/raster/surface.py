@@ -65,7 +65,7 @@ class Surface:
             self.row = [0] * (self.width + 2)
 
     @cython.cfunc
-    def make_room(self, size: cython.Py_ssize_t) -> object:
+    def make_room(self, size: cython.Py_ssize_t) -> Any:
         """Let `room` point to working memory of `size` bytes or more, kept from call to call. In compiled code only."""
         if self.kept is None or len(self.kept) < size:
             self.kept = bytearray(2 * size)
