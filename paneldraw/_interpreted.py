@@ -45,6 +45,10 @@ class _StandIn(ModuleType):
         return value
 
     @staticmethod
+    def struct(**fields: Any) -> type:
+        return type("struct", (), dict.fromkeys(fields, 0))
+
+    @staticmethod
     def exceptval(_value: Any = None, check: bool = False) -> _Anything:
         return _Anything()
 
