@@ -1,4 +1,4 @@
-# cython: language_level=3, boundscheck=False, wraparound=False, cdivision=True
+# cython: language_level=3, boundscheck=False, wraparound=False, cdivision=True, nonecheck=True
 """The calls that draw points and lines."""
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import ArrayLike
 
-    from paneldraw.framebuffer.arguments import AntialiasOrDefault, Level, Real
+    from paneldraw.framebuffer.arguments import AntialiasOrDefault, Level, Real, Str
 
 _ALGORITHMS = {"bresenham": 0, "dda": 1}
 _SQUARE = cython.declare(cython.int, CAPS["square"])
@@ -61,7 +61,7 @@ _WIDE = cython.declare(cython.longlong, 1 << 20)
 class Lines(Paths):
     """The calls that draw points and lines."""
 
-    def pixel(self, x: Real, y: Real, c: Level = None, *, op: str = "over") -> int | None:
+    def pixel(self, x: Real, y: Real, c: Level = None, *, op: Str = "over") -> int | None:
         """Paint one pixel with level `c`, or, with no level given, return the level it has (0 outside)."""
         x = min(max(whole("x", x), -1), LARGEST)
         y = min(max(whole("y", y), -1), LARGEST)
@@ -72,12 +72,12 @@ class Lines(Paths):
         self.surface.point(x, y)
         return None
 
-    def hline(self, x: Real, y: Real, w: Real, c: Level = None, *, op: str = "over") -> None:
+    def hline(self, x: Real, y: Real, w: Real, c: Level = None, *, op: Str = "over") -> None:
         """Draw a horizontal line of `w` pixels from (x, y) to the right."""
         self._dip(c, op)
         self._block(whole("x", x), whole("y", y), not_negative("w", whole("w", w)), 1)
 
-    def vline(self, x: Real, y: Real, h: Real, c: Level = None, *, op: str = "over") -> None:
+    def vline(self, x: Real, y: Real, h: Real, c: Level = None, *, op: Str = "over") -> None:
         """Draw a vertical line of `h` pixels from (x, y) downward."""
         self._dip(c, op)
         self._block(whole("x", x), whole("y", y), 1, not_negative("h", whole("h", h)))
@@ -91,11 +91,11 @@ class Lines(Paths):
         c: Level = None,
         *,
         width: Real = 1,
-        cap: str = "square",
+        cap: Str = "square",
         dash: Iterable[Real] | None = None,
-        algorithm: str = "bresenham",
+        algorithm: Str = "bresenham",
         antialias: AntialiasOrDefault = ...,
-        op: str = "over",
+        op: Str = "over",
     ) -> None:
         """Draw the line from (x1, y1) to (x2, y2), both end points included.
 
@@ -207,11 +207,11 @@ class Lines(Paths):
         c: Level = None,
         *,
         width: Real = 1,
-        cap: str = "square",
+        cap: Str = "square",
         dash: Iterable[Real] | None = None,
-        algorithm: str = "bresenham",
+        algorithm: Str = "bresenham",
         antialias: AntialiasOrDefault = ...,
-        op: str = "over",
+        op: Str = "over",
     ) -> None:
         """Draw many lines in one call: as `line` for each row (x1, y1, x2, y2) of an array of shape (n, 4).
 
@@ -267,7 +267,7 @@ class Lines(Paths):
         for row in range(0, 4 * len(numbers), 4):
             slab(self.surface, p[row], p[row + 1], p[row + 2], p[row + 3], width, square, n, samples.corner)
 
-    def points(self, xy: ArrayLike, c: Level = None, *, op: str = "over") -> None:
+    def points(self, xy: ArrayLike, c: Level = None, *, op: Str = "over") -> None:
         """Paint many pixels in one call: the rows (x, y) of an array of shape (n, 2).
 
         Examples

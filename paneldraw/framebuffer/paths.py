@@ -1,4 +1,4 @@
-# cython: language_level=3, boundscheck=False, wraparound=False, cdivision=True
+# cython: language_level=3, boundscheck=False, wraparound=False, cdivision=True, nonecheck=True
 """What the drawing calls have in common: the surface they draw on, its ink, and paths of any width."""
 
 from __future__ import annotations

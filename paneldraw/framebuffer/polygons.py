@@ -1,4 +1,4 @@
-# cython: language_level=3, boundscheck=False, wraparound=False, cdivision=True
+# cython: language_level=3, boundscheck=False, wraparound=False, cdivision=True, nonecheck=True
 """The calls that draw through a list of points."""
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import ArrayLike
 
-    from paneldraw.framebuffer.arguments import AntialiasOrDefault, Level, Real
+    from paneldraw.framebuffer.arguments import AntialiasOrDefault, Level, Real, Str
 
 _RULES = {"even-odd": 0, "nonzero": 1}
 
@@ -42,11 +42,11 @@ class Polygons(Lines):
         *,
         closed: bool = False,
         width: Real = 1,
-        cap: str = "square",
-        join: str = "miter",
+        cap: Str = "square",
+        join: Str = "miter",
         dash: Iterable[Real] | None = None,
         antialias: AntialiasOrDefault = ...,
-        op: str = "over",
+        op: Str = "over",
     ) -> None:
         """Draw lines from point to point, as one shape: where they meet or cross, a pixel is painted once.
 
@@ -94,9 +94,9 @@ class Polygons(Lines):
         fill: bool = False,
         *,
         width: Real = 1,
-        join: str = "miter",
+        join: Str = "miter",
         antialias: AntialiasOrDefault = ...,
-        op: str = "over",
+        op: Str = "over",
     ) -> None:
         """Draw a triangle: its outline, or with `fill` what it encloses, as `poly` does.
 
@@ -122,11 +122,11 @@ class Polygons(Lines):
         c: Level = None,
         fill: bool = False,
         *,
-        rule: str = "even-odd",
+        rule: Str = "even-odd",
         width: Real = 1,
-        join: str = "miter",
+        join: Str = "miter",
         antialias: AntialiasOrDefault = ...,
-        op: str = "over",
+        op: Str = "over",
     ) -> None:
         """Draw a polygon, which may cross itself: its outline, or with `fill` what it encloses.
 
