@@ -188,11 +188,11 @@ class Framebuffer(Shapes):
         Parameters
         ----------
         picture : PIL.Image.Image or numpy.ndarray
-            An array of greys: shape (height, width), uint8 0 ... 255 or bool; or of colors: (height, width, 3 or 4).
+            An array of grays: shape (height, width), uint8 0 ... 255 or bool; or of colors: (height, width, 3 or 4).
             Where a picture is transparent, what is there shines through.
         x, y : int or float
         dither : {None, "bayer", "floyd-steinberg"}
-            How greys become levels: the nearest level, a fixed pattern, or diffusion of the error.
+            How grays become levels: the nearest level, a fixed pattern, or diffusion of the error.
 
         Raises
         ------

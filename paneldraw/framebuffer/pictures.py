@@ -1,4 +1,4 @@
-"""Between levels and pictures: Pillow images, grey arrays, files, and text."""
+"""Between levels and pictures: Pillow images, gray arrays, files, and text."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def to_text(levels: Levels, depth: int) -> str:
 
 
 def to_gray(picture: Any) -> tuple[Levels, Levels | None]:
-    """Return a picture's greys and, where it has one, its opacity, both 0 ... 255 and of shape (height, width).
+    """Return a picture's grays and, where it has one, its opacity, both 0 ... 255 and of shape (height, width).
 
     Parameters
     ----------
@@ -68,7 +68,7 @@ def to_gray(picture: Any) -> tuple[Levels, Levels | None]:
     if not isinstance(picture, np.ndarray):
         raise TypeError(f"picture must be a numpy array or a Pillow image, not {type(picture).__name__}")
     if picture.dtype != bool and picture.dtype != np.uint8:
-        raise TypeError(f"picture must hold uint8 greys 0 ... 255 or bool, not {picture.dtype}; convert it first")
+        raise TypeError(f"picture must hold uint8 grays 0 ... 255 or bool, not {picture.dtype}; convert it first")
     if picture.ndim == 3 and picture.shape[2] in (3, 4) and picture.dtype == np.uint8:
         from PIL import Image
 
@@ -90,7 +90,7 @@ def _image_to_gray(image: Image.Image) -> tuple[Levels, Levels | None]:
 
 
 def quantize(gray: Levels, max_level: int, dither: Dither | None = None) -> Levels:
-    """Return levels 0 ... `max_level` for greys 0 ... 255.
+    """Return levels 0 ... `max_level` for grays 0 ... 255.
 
     Parameters
     ----------
@@ -107,7 +107,7 @@ def quantize(gray: Levels, max_level: int, dither: Dither | None = None) -> Leve
 
     Notes
     -----
-    R. W. Floyd and L. Steinberg, "An adaptive algorithm for spatial grey scale", Proc. SID 17 (1976), 75-77.
+    R. W. Floyd and L. Steinberg, "An adaptive algorithm for spatial greyscale", Proc. SID 17 (1976), 75-77.
     """
     if dither is None:
         return ((gray.astype(np.int32) * (2 * max_level) + 255) // 510).astype(np.uint8)
