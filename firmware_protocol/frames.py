@@ -81,6 +81,11 @@ class FrameDecoder:
         self._held = bytearray()
         self._overlong = False
 
+    @property
+    def held(self) -> int:
+        """How many bytes of an unfinished frame are held."""
+        return len(self._held)
+
     def feed(self, data: bytes) -> list[Frame | None]:
         """Take bytes as they come; return the frames that they complete, with None for each damaged one."""
         *complete, rest = data.split(DELIMITER)

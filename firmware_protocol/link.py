@@ -158,17 +158,25 @@ class HostLink:
         self._in_session = True
         self.stats.sessions += 1
 
-    def write(self, runs: Iterable[Run], *, end: bool = True) -> None:
-        """Write runs to the panel and return when the panel's bus has taken them; see `submit`."""
+    def write(self, runs: Iterable[Run], *, end: bool = True) -> int:
+        """Write runs to the panel and wait until its bus has taken them; see `submit`.
+
+        Returns
+        -------
+        int
+            Bytes that this put on the wire, what was sent again included.
+        """
+        before = self.stats.bytes_sent
         self.submit(runs, end=end)
         self.drain()
+        return self.stats.bytes_sent - before
 
     def submit(self, runs: Iterable[Run], *, end: bool = True) -> None:
         """Send runs to the panel without waiting for the last acknowledgements.
 
         Parameters
         ----------
-        runs : iterable of (bool, bytes)
+        runs : iterable of (bool, bytes or memoryview)
             Whether the bytes are data (True) or commands (False), and the bytes.
         end : bool, default True
             Whether the runs complete a picture.

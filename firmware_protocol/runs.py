@@ -20,7 +20,8 @@ LEAST_PAYLOAD = 1 + MAX_COMMANDS
 # A repeat inside a literal costs its two bytes and the header of the literal after it.
 _REPEATS = re.compile(rb"(.)\1{3,%d}" % (MAX_REPEAT - 1), re.DOTALL)
 
-Run = tuple[bool, bytes]
+#: Whether the bytes are data (True) or commands (False), and the bytes.
+Run = tuple[bool, bytes | memoryview]
 
 
 def pack_runs(runs: Iterable[Run], limit: int, *, first: int | None = None, repeats: bool = True) -> list[bytes]:
@@ -28,7 +29,7 @@ def pack_runs(runs: Iterable[Run], limit: int, *, first: int | None = None, repe
 
     Parameters
     ----------
-    runs : iterable of (bool, bytes)
+    runs : iterable of (bool, bytes or memoryview)
         Whether the bytes are data (True) or commands (False), and the bytes. Commands of one run are kept in one
         payload where they fit into one.
     limit : int
@@ -59,7 +60,7 @@ def pack_runs(runs: Iterable[Run], limit: int, *, first: int | None = None, repe
     return packer.finish()
 
 
-def unpack_runs(payload: bytes) -> list[Run]:
+def unpack_runs(payload: bytes) -> list[tuple[bool, bytes]]:
     """Return the runs of a WRITE payload, neighbors of one kind joined, as they go onto the panel's bus.
 
     Raises
@@ -81,7 +82,7 @@ def unpack_runs(payload: bytes) -> list[Run]:
     return [(is_data, bytes(content)) for is_data, content in joined]
 
 
-def _tokens(payload: bytes) -> Iterator[Run]:
+def _tokens(payload: bytes) -> Iterator[tuple[bool, bytes]]:
     at = 0
     while at < len(payload):
         header = payload[at]
@@ -113,7 +114,7 @@ class _Packer:
             self.limit = self.later
         return self.done
 
-    def commands(self, content: bytes) -> None:
+    def commands(self, content: bytes | memoryview) -> None:
         size = len(content) + -(-len(content) // MAX_COMMANDS)
         if size > self.limit - len(self.payload) and size <= self.later:
             self.finish()
@@ -124,7 +125,7 @@ class _Packer:
             self.payload.append(COMMAND_HEADER + len(part) - 1)
             self.payload += part
 
-    def data(self, content: bytes, repeats: bool) -> None:
+    def data(self, content: bytes | memoryview, repeats: bool) -> None:
         at = 0
         if repeats and len(content) > 3:
             for match in _REPEATS.finditer(content):
@@ -135,7 +136,7 @@ class _Packer:
                 self.payload += bytes((257 - (at - match.start()), content[at - 1]))
         self._literal(content[at:])
 
-    def _literal(self, content: bytes) -> None:
+    def _literal(self, content: bytes | memoryview) -> None:
         at = 0
         while at < len(content):
             if len(self.payload) + 2 > self.limit:

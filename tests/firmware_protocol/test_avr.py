@@ -224,6 +224,24 @@ def test_any_bytes_leave_it_ready(board: Board, baudrate: int) -> None:
     assert kinds[-2:] == [0x81, 0x82]
 
 
+def test_acknowledgements_twice_late_and_out_of_order_do_no_harm(board: Board) -> None:
+    port, link = joined(board)
+    held: list[bytes] = []
+    output = board.output
+
+    def shuffled(baudrate: int) -> bytes:
+        held.extend(bytes((byte,)) for byte in output(baudrate))
+        frames = [part + b"\0" for part in b"".join(held).split(b"\0")]
+        held[:] = [frames.pop()[:-1]]
+        return b"".join(frame * 2 for frame in reversed(frames))
+
+    board.output = shuffled  # type: ignore[method-assign]
+    for picture in screens(4):
+        link.write(whole(picture))
+        port.read()
+        assert port.panel.ram == picture
+
+
 def test_more_than_the_window_is_lost_and_nothing_else(board: Board) -> None:
     port, link = joined(board, 500_000)
     port.write(b"\0" + bytes(range(1, 256)) * 40)

@@ -73,7 +73,7 @@ def test_any_bytes_leave_the_decoder_bounded_and_ready(chunks: list[bytes]) -> N
     decoder = FrameDecoder(max_payload=64)
     for chunk in chunks:
         decoder.feed(chunk)
-        assert len(decoder._held) <= wire_size(64)
+        assert decoder.held <= wire_size(64)
     decoder.feed(b"\0")
     assert decoder.feed(encode_frame(2, 3, b"x")) == [Frame(2, 3, b"x")]
 
@@ -131,6 +131,12 @@ def test_any_write_payload_unpacks_or_is_a_value_error(payload: bytes) -> None:
     except ValueError:
         return
     assert sum(len(content) for _, content in runs) <= 97 * len(payload)
+
+
+def test_runs_may_be_views() -> None:
+    content = bytes(range(50)) + bytes(300)
+    runs = [(False, content[:9]), (True, content)]
+    assert pack_runs([(kind, memoryview(part)) for kind, part in runs], 99) == pack_runs(runs, 99)
 
 
 def test_commands_of_one_run_stay_in_one_payload() -> None:

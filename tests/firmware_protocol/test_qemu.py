@@ -23,9 +23,9 @@ class Machine:
     """QEMU with the firmware; its serial line hangs on a pseudo-terminal, its monitor on its standard streams."""
 
     def __init__(self, elf: Path) -> None:
+        joints = ["-display", "none", "-serial", "pty", "-qmp", "stdio"]
         self.process = subprocess.Popen(
-            ["qemu-system-arm", "-M", "lm3s811evb", "-kernel", str(elf), "-display", "none", "-serial", "pty"]
-            + ["-qmp", "stdio"],
+            ["qemu-system-arm", "-M", "lm3s811evb", "-kernel", str(elf), *joints],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             text=True,
