@@ -1,0 +1,70 @@
+"""Draws the pictures of the README with the package itself: ``python docs/make_pictures.py``."""
+
+from __future__ import annotations
+
+import math
+import os
+import re
+import subprocess
+import sys
+import tempfile
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from PIL import Image
+
+from paneldraw import Framebuffer, Supersample, simulator
+
+HERE = Path(__file__).parent
+README = HERE.parent / "README.md"
+
+
+def blocks(language: str, section: str = "") -> list[str]:
+    """The README's fenced blocks of a language, of one section or of all."""
+    text = README.read_text(encoding="utf-8")
+    if section:
+        text = re.split(r"^## ", text.partition(f"\n## {section}\n")[2], maxsplit=1, flags=re.M)[0]
+    return re.findall(rf"^```{language}\n(.*?)^```$", text, re.M | re.S)
+
+
+def lines() -> Image.Image:
+    """Sixteen levels of grey: on the left lines as they come, on the right the same ones anti-aliased."""
+    fb = Framebuffer(128, 64, depth=4)
+    for name, x, antialias in (("aliased", 31, None), ("smooth", 96, Supersample(4))):
+        fb.antialias = antialias
+        fb.text(name, x, 0, anchor="mt")
+        for k in range(20):
+            dx, dy = math.cos(math.radians(18 * k + 5)), math.sin(math.radians(18 * k + 5))
+            fb.line(x + 8 * dx, 36 + 8 * dy, x + 26 * dx, 36 + 26 * dy, width=1 + k % 2)
+    return simulator.image(fb.pixels, scale=6, max_level=fb.max_level)
+
+
+def hello() -> Image.Image:
+    """What the README's script, run as it is printed, brings onto the simulated panel."""
+    return simulator.image(glass_of(blocks("python")[0]), scale=4)
+
+
+def glass_of(script: str) -> Any:
+    """Run a script in an interpreter and a folder of its own; return the pixels of its simulated panel."""
+    look = "import runpy; panel = runpy.run_path('script.py')['panel']; "
+    look += "import numpy; numpy.save('glass', panel.transport.bus.devices[0x3C].pixels)"
+    environment = {name: value for name, value in os.environ.items() if name != "PANELDRAW_PANEL"}
+    with tempfile.TemporaryDirectory() as folder:
+        Path(folder, "script.py").write_text(script, encoding="utf-8")
+        subprocess.run([sys.executable, "-c", look], cwd=folder, env=environment, check=True)
+        return np.load(Path(folder, "glass.npy"))
+
+
+PICTURES: dict[str, Callable[[], Image.Image]] = {"lines.png": lines, "hello.png": hello}
+
+
+def main() -> None:
+    """Write every picture beside this script."""
+    for name, draw in PICTURES.items():
+        draw().save(HERE / name, optimize=True)
+
+
+if __name__ == "__main__":
+    main()
