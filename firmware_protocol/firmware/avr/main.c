@@ -154,7 +154,7 @@ void pd_port_bus_start(void)
     pd_bus_next(); /* the first is PD_START */
     look_ahead();
     GPIOR0 = 0;
-    TWCR = TWI_ON | _BV(TWSTA);
+    PD_GUARDED(TWCR = TWI_ON | _BV(TWSTA)); /* not before the step is there */
 }
 
 static void bus_on(void)

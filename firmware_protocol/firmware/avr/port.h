@@ -4,6 +4,7 @@
 
 #include <avr/interrupt.h>
 #include <avr/pgmspace.h>
+#include <util/atomic.h>
 #include <util/crc16.h>
 
 #define PD_RING_SIZE 512
@@ -30,11 +31,10 @@
 #define PD_READ_FLASH(p) pgm_read_byte(p)
 #define PD_READ_FLASH_LONG(p) pgm_read_dword(p)
 #define PD_GUARDED(statement) \
-    do { \
-        cli(); \
+    ATOMIC_BLOCK(ATOMIC_RESTORESTATE) \
+    { \
         statement; \
-        sei(); \
-    } while (0)
+    }
 #define pd_crc(crc, byte) _crc_xmodem_update(crc, byte)
 
 #endif

@@ -39,7 +39,7 @@ void pd_bus_write(uint16_t at, uint16_t end)
     pd_bus.left = 0;
     pd_bus.control = false;
     pd_bus.run = at == end ? RUN_PROBE : RUN_NONE;
-    pd_bus.state = PD_BUS_BUSY;
+    PD_GUARDED(pd_bus.state = PD_BUS_BUSY); /* not before the rest is there */
     pd_port_bus_start();
 }
 

@@ -111,7 +111,7 @@ static void finish(void)
     put_raw((uint8_t)crc);
     out.ring[out.code & (PD_TX_SIZE - 1)] = out.block;
     out.ring[out.at & (PD_TX_SIZE - 1)] = 0;
-    out.head = out.at + 1;
+    PD_GUARDED(out.head = out.at + 1); /* not before the bytes are there */
     pd_port_transmit();
 }
 

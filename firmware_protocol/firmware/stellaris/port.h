@@ -21,9 +21,10 @@
 #define PD_READ_FLASH_LONG(p) (*(p))
 #define PD_GUARDED(statement) \
     do { \
-        __asm__ volatile("cpsid i" ::: "memory"); \
+        uint32_t masked; \
+        __asm__ volatile("mrs %0, primask\n\tcpsid i" : "=r"(masked)::"memory"); \
         statement; \
-        __asm__ volatile("cpsie i" ::: "memory"); \
+        __asm__ volatile("msr primask, %0" ::"r"(masked) : "memory"); \
     } while (0)
 
 static inline uint16_t pd_crc(uint16_t crc, uint8_t byte)
