@@ -14,18 +14,21 @@ import pytest
 from c_core import made
 
 from firmware_protocol import HostLink
+from firmware_protocol.messages import PanelBus
 
 serial = pytest.importorskip("serial", reason="pyserial is not installed")
-WIDTH, HEIGHT, OFFSET, MAGNIFIED = 96, 16, 36, 4
+MAGNIFIED = 4
+OFFSET = 36
 
 
 class Machine:
     """QEMU with the firmware; its serial line hangs on a pseudo-terminal, its monitor on its standard streams."""
 
-    def __init__(self, elf: Path) -> None:
+    def __init__(self, board: str, elf: Path, width: int, height: int) -> None:
+        self.width, self.height = width, height
         joints = ["-display", "none", "-serial", "pty", "-qmp", "stdio"]
         self.process = subprocess.Popen(
-            ["qemu-system-arm", "-M", "lm3s811evb", "-kernel", str(elf), *joints],
+            ["qemu-system-arm", "-M", board, "-kernel", str(elf), *joints],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             text=True,
@@ -54,13 +57,14 @@ class Machine:
             assert "error" not in line, answer
 
     def screen(self, file: Path) -> np.ndarray:
-        """Return what the panel shows, as (HEIGHT, WIDTH) of 0 and 1."""
+        """Return what the panel shows, as (height, width) of 0 to 255."""
         self.ask("screendump", filename=str(file))
         head, size, _, pixels = re.fullmatch(rb"(P6)\s+(\d+ \d+)\s+(255)\s(.*)", file.read_bytes(), re.DOTALL).groups()
         width, height = map(int, size.split())
-        assert (head, width, height) == (b"P6", WIDTH * MAGNIFIED, HEIGHT * MAGNIFIED)
+        assert (head, width, height) == (b"P6", self.width * MAGNIFIED, self.height * MAGNIFIED)
         seen = np.frombuffer(pixels, np.uint8).reshape(height, width, 3)
-        return (seen[::MAGNIFIED, ::MAGNIFIED, 0] > 127).astype(np.uint8)
+        assert (seen == seen[::MAGNIFIED, ::MAGNIFIED].repeat(MAGNIFIED, 0).repeat(MAGNIFIED, 1)).all()
+        return seen[::MAGNIFIED, ::MAGNIFIED, 0]
 
     def close(self) -> None:
         self.process.terminate()
@@ -68,34 +72,54 @@ class Machine:
 
 
 @pytest.fixture
-def machine(tmp_path: Path) -> Iterator[Machine]:
+def machine(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[Machine]:
     if not shutil.which("qemu-system-arm"):
         pytest.skip("qemu-system-arm is not installed")
-    machine = Machine(made("lm3s811", "lm3s811/paneldraw.elf", tmp_path / "build", "arm-none-eabi-gcc"))
+    target, width, height = request.param
+    elf = made(target, f"{target}/paneldraw.elf", tmp_path / "build", "arm-none-eabi-gcc")
+    machine = Machine(f"{target}evb", elf, width, height)
     yield machine
     machine.close()
 
 
-def runs(picture: np.ndarray) -> list[tuple[bool, bytes]]:
+def pages(picture: np.ndarray) -> list[tuple[bool, bytes]]:
     """Return the runs that show a picture of 0 and 1 on the SSD0303."""
-    packed = np.packbits(picture.reshape(HEIGHT // 8, 8, WIDTH), axis=1, bitorder="little")[:, 0]
-    made: list[tuple[bool, bytes]] = []
+    height, width = picture.shape
+    packed = np.packbits(picture.reshape(height // 8, 8, width), axis=1, bitorder="little")[:, 0]
+    runs: list[tuple[bool, bytes]] = []
     for page, row in enumerate(packed):
-        made += [(False, bytes((0xB0 + page, OFFSET & 15, 0x10 + (OFFSET >> 4)))), (True, row.tobytes())]
-    return made
+        runs += [(False, bytes((0xB0 + page, OFFSET & 15, 0x10 + (OFFSET >> 4)))), (True, row.tobytes())]
+    return runs
 
 
-def test_qemus_panel_shows_what_was_sent(machine: Machine, tmp_path: Path) -> None:
+@pytest.mark.parametrize("machine", [("lm3s811", 96, 16)], indirect=True)
+def test_qemus_i2c_panel_shows_what_was_sent(machine: Machine, tmp_path: Path) -> None:
     rng = np.random.default_rng(1)
     with HostLink(serial.Serial(machine.port, 115200)) as link:
-        assert (link.device.controller, link.device.width, link.device.present) == ("ssd0303", WIDTH, True)
+        said = link.device
+        assert (said.controller, said.width, said.height, said.present) == ("ssd0303", 96, 16, True)
         link.write([(False, b"\xae\xa0\xa4\xa6\x40\x81\x7f\xd3\x00\xaf")])
-        pictures = [(rng.random((HEIGHT, WIDTH)) < share).astype(np.uint8) for share in np.linspace(0, 1, 20)]
+        pictures = [(rng.random((16, 96)) < share).astype(np.uint8) for share in np.linspace(0, 1, 20)]
         for picture in pictures:
-            link.write(runs(picture))
-            np.testing.assert_array_equal(machine.screen(tmp_path / "screen.ppm"), picture)
+            link.write(pages(picture))
+            np.testing.assert_array_equal(machine.screen(tmp_path / "screen.ppm"), picture * 255)
         link.write([(False, b"\xa7")])
-        link.write(runs(pictures[7]))
-        np.testing.assert_array_equal(machine.screen(tmp_path / "screen.ppm"), 1 - pictures[7])
+        link.write(pages(pictures[7]))
+        np.testing.assert_array_equal(machine.screen(tmp_path / "screen.ppm"), 255 - pictures[7] * 255)
         assert link.stats.resent == 0
         assert link.status().overflows == 0
+
+
+@pytest.mark.parametrize("machine", [("lm3s6965", 128, 64)], indirect=True)
+def test_qemus_spi_panel_shows_what_was_sent(machine: Machine, tmp_path: Path) -> None:
+    rng = np.random.default_rng(2)
+    with HostLink(serial.Serial(machine.port, 115200)) as link:
+        said = link.device
+        assert (said.controller, said.bus, said.acknowledges) == ("ssd0323", PanelBus.SPI, False)
+        link.write([(False, b"\xae\xa0\x40\xa4\x81\x40\xaf")])
+        for flat in (False, True, False, False):
+            picture = np.full((64, 128), 9) if flat else rng.integers(0, 16, (64, 128))
+            packed = (picture[:, ::2] << 4 | picture[:, 1::2]).astype(np.uint8)
+            link.write([(False, b"\x15\x00\x3f\x75\x00\x3f"), (True, packed.tobytes())])
+            np.testing.assert_array_equal(machine.screen(tmp_path / "screen.ppm"), picture * 17)
+        assert link.stats.resent == 0

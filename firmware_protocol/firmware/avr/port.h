@@ -10,6 +10,7 @@
 #define PD_RING_SIZE 512
 #define PD_TX_SIZE 128
 #define PD_MAX_PAYLOAD 250
+#define PD_BUS PD_BUS_IS_I2C
 
 #ifndef PD_ADDRESS
 #define PD_ADDRESS 0x3C

@@ -135,9 +135,9 @@ static void say_hello(void)
     put_raw(1);
     put(link.boot, 2);
     put_raw(link.cause);
-    put_raw(1);
+    put_raw(PD_BUS);
     put_raw(PD_ADDRESS);
-    put_raw(1 | link.present << 1 | PD_RESET_LINE << 2);
+    put_raw((PD_BUS == PD_BUS_IS_I2C) | link.present << 1 | PD_RESET_LINE << 2);
     put_raw(1);
     put(PD_MAX_PAYLOAD, 2);
     put(PD_WINDOW, 2);

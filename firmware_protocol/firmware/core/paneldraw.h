@@ -9,6 +9,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#define PD_BUS_IS_I2C 1
+#define PD_BUS_IS_SPI 2
 #include "port.h"
 
 #if PD_RING_SIZE & (PD_RING_SIZE - 1)

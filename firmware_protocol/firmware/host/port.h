@@ -7,6 +7,7 @@
 #define PD_RING_SIZE 512
 #define PD_TX_SIZE 128
 #define PD_MAX_PAYLOAD 250
+#define PD_BUS PD_BUS_IS_I2C
 #define PD_ADDRESS 0x3C
 #define PD_CONTROLLER "ssd1306"
 #define PD_WIDTH 128

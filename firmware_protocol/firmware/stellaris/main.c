@@ -1,19 +1,5 @@
-/* The LM3S811's UART by interrupt, its I2C by waiting, its system tick. Runs from the 6 MHz crystal, as after a reset. */
-#include "paneldraw.h"
-
-#define CLOCK 6000000UL
-#define REG(address) (*(volatile uint32_t *)(address))
-
-#define SYSCTL(offset) REG(0x400FE000 + (offset))
-#define RESET_CAUSE 0x05C
-#define CLOCKS_1 0x104 /* bit 0 UART0, bit 12 I2C0 */
-#define CLOCKS_2 0x108 /* bit 0 port A, bit 1 port B */
-
-#define PORT_A(offset) REG(0x40004000 + (offset))
-#define PORT_B(offset) REG(0x40005000 + (offset))
-#define ALTERNATE 0x420
-#define OPEN_DRAIN 0x50C
-#define DIGITAL 0x51C
+/* A Stellaris board's UART by interrupt and its system tick; the panel is in i2c.c or ssi.c. */
+#include "board.h"
 
 #define UART(offset) REG(0x4000C000 + (offset))
 #define UART_DATA 0x00
@@ -27,19 +13,10 @@
 #define UART_IRQ 5
 enum { BUSY = 0x08, RX_EMPTY = 0x10, TX_FULL = 0x20 };
 
-#define I2C(offset) REG(0x40020000 + (offset))
-#define I2C_ADDRESS 0x00
-#define I2C_STATUS 0x04
-#define I2C_DATA 0x08
-#define I2C_PERIOD 0x0C
-#define I2C_CONTROL 0x20
-enum { RUN = 1, START = 2, STOP = 4 };
-enum { I2C_BUSY = 0x01, I2C_ERROR = 0x02, NO_DATA_ACK = 0x08, LOST = 0x10 };
-
 #define TICK(offset) REG(0xE000E010 + (offset))
 #define ENABLE_IRQ REG(0xE000E100)
 
-static volatile uint16_t milliseconds;
+volatile uint16_t pd_milliseconds;
 static uint16_t boots __attribute__((section(".noinit")));
 static bool sending;
 
@@ -88,80 +65,18 @@ void pd_port_set_rate(uint32_t rate)
     UART(UART_CONTROL) = 0x301;
 }
 
-/* -- panel */
-
-/* Tells the controller what to do and waits; what went wrong, if something did. */
-static enum pd_fault command(uint32_t what)
-{
-    uint32_t status;
-    uint16_t since = milliseconds;
-    I2C(I2C_STATUS) = what;
-    do {
-        if ((uint16_t)(milliseconds - since) > 20)
-            return PD_BUS_STUCK;
-        status = I2C(I2C_STATUS);
-    } while (status & I2C_BUSY);
-    if (!(status & I2C_ERROR))
-        return PD_OK;
-    I2C(I2C_STATUS) = STOP;
-    return status & NO_DATA_ACK ? PD_DATA_NACK : PD_ADDRESS_NACK;
-}
-
-/* The controller sends the address with the first byte. Between transactions there is a stop, because QEMU's panel
- * begins to listen for control bytes again only then.
- */
-static enum pd_fault write_all(void)
-{
-    uint32_t start = 0;
-    bool open = false;
-    enum pd_fault fault = PD_OK;
-    for (;;) {
-        uint16_t step = pd_bus_next();
-        if (step <= 0xFF) {
-            I2C(I2C_DATA) = step;
-            fault = command(RUN | start);
-            start = 0;
-            open = true;
-        } else {
-            if (start) /* nothing but the address: is anybody there? */
-                fault = command(START | STOP);
-            else if (open)
-                fault = command(STOP);
-            open = false;
-            start = START;
-            if (step == PD_STOP)
-                return fault;
-        }
-        if (fault)
-            return fault;
-    }
-}
-
-void pd_port_bus_start(void)
-{
-    I2C(I2C_ADDRESS) = PD_ADDRESS << 1;
-    pd_bus_done(write_all());
-}
-
-void pd_port_bus_abort(void) {}
-
-void pd_port_reset_panel(void) {}
-
 /* -- the whole */
 
 static void init(void)
 {
-    SYSCTL(CLOCKS_1) = 1 << 12 | 1;
-    SYSCTL(CLOCKS_2) = 3;
+    SYSCTL(CLOCK_CONFIG) = (SYSCTL(CLOCK_CONFIG) & ~0x3F1UL) | CRYSTAL << 6;
+    SYSCTL(CLOCKS_1) = 1 << 12 | 1 << 4 | 1;
+    SYSCTL(CLOCKS_2) = 0x0F;
     for (volatile int wait = 8; wait; wait--)
         ;
     PORT_A(ALTERNATE) = 0x03;
     PORT_A(DIGITAL) = 0x03;
-    PORT_B(ALTERNATE) = 0x0C;
-    PORT_B(DIGITAL) = 0x0C;
-    PORT_B(OPEN_DRAIN) = 0x0C;
-    I2C(I2C_CONTROL) = 0x10;
-    I2C(I2C_PERIOD) = 0; /* 6 MHz / 20 = 300 kHz */
+    pd_panel_init();
     pd_port_set_rate(115200);
     ENABLE_IRQ = 1 << UART_IRQ;
     TICK(4) = CLOCK / 1000 - 1;
@@ -176,7 +91,7 @@ int main(void)
     pd_start(++boots, (uint8_t)((cause & 0x0C) | (cause >> 1 & 1) | (cause << 1 & 2)));
     for (;;) {
         uint16_t now;
-        PD_GUARDED(now = milliseconds);
+        PD_GUARDED(now = pd_milliseconds);
         pd_poll(now);
         transmit();
     }
@@ -184,7 +99,7 @@ int main(void)
 
 static void tick(void)
 {
-    milliseconds++;
+    pd_milliseconds++;
 }
 
 static void stop(void)
