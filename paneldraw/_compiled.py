@@ -23,6 +23,10 @@ MODULES = (
     "paneldraw.framebuffer.shapes",
     "paneldraw.framebuffer.framebuffer",
     "paneldraw.controllers.packing",
+    "paneldraw.update.paths",
+    "paneldraw.update.messages",
+    "paneldraw.update.windows",
+    "paneldraw.update.planner",
 )
 
 PACKAGE = Path(__file__).parent

@@ -1,0 +1,7 @@
+"""What changed since the last frame, and the cheapest way to send it."""
+
+from __future__ import annotations
+
+from paneldraw.update.planner import Planner
+
+__all__ = ["Planner"]

@@ -1,0 +1,19 @@
+from paneldraw.update.messages cimport Writer
+
+cdef class Windows:
+    cdef Writer writer
+    cdef int[:, ::1] pieces, boxes
+
+    cdef int stream(self, int count)
+    cdef int bounding(self, int count)
+    cdef int grown(self, int count)
+    cdef int _saved(self, int i, int j)
+    cdef void _join(self, int one, int other)
+    cdef void _swap(self, int one, int other)
+    cdef int tall_first(self, int count)
+    cdef bint cover(self, int boxes, int piece)
+    cdef int cost(self, int count)
+    cdef void write(self, int count)
+    cdef int _commands(self, int i)
+    cdef void _write_one(self, int i, bint last)
+    cdef int _idle_tail(self, int i, int mode)

@@ -1,0 +1,221 @@
+# cython: language_level=3, boundscheck=False, wraparound=False, initializedcheck=False, cdivision=True
+"""Updates as rectangles: which ones, in which order, and what they cost.
+
+A box is a rectangle of bytes (left, right, top, bottom), a piece a stretch of them (page, left, right); ends are
+exclusive.
+"""
+
+from __future__ import annotations
+
+import cython
+import numpy as np
+
+from paneldraw.update.messages import HORIZONTAL, VERTICAL
+
+if cython.compiled:
+    from cython.cimports.paneldraw.update.messages import Writer
+else:
+    from paneldraw.update.messages import Writer
+
+MOST = 24
+
+_MOST = cython.declare(cython.int, MOST)
+_HORIZONTAL = cython.declare(cython.int, HORIZONTAL)
+_VERTICAL = cython.declare(cython.int, VERTICAL)
+# What one more window costs, as a rule: its commands and the framing of two messages.
+_WINDOW = cython.declare(cython.int, 10)
+
+
+@cython.cclass
+class Windows:
+    """Boxes around changed pieces, and their way through a writer."""
+
+    def __init__(self, writer: Writer, pieces: cython.int[:, ::1]) -> None:
+        self.writer = writer
+        self.pieces = pieces
+        self.boxes = np.zeros((MOST, 4), np.intc)
+
+    @cython.cfunc
+    def stream(self, count: cython.int) -> cython.int:
+        """Bytes from where the pointer stands in the open window to the last of the pieces; 0 if that is no way."""
+        w: Writer = self.writer
+        if not w.windowed() or w.column < 0 or w.window_right < 0:
+            return 0
+        right: cython.int = 1 if w.mode == _HORIZONTAL else w.window_bottom - w.window_top
+        down: cython.int = 1 if w.mode == _VERTICAL else w.window_right - w.window_left
+        area: cython.int = (w.window_right - w.window_left) * (w.window_bottom - w.window_top)
+        farthest: cython.int = 0
+        first: cython.int
+        last: cython.int
+        i: cython.int
+        for i in range(count):
+            if not (
+                w.window_top <= self.pieces[i, 0] < w.window_bottom
+                and w.window_left <= self.pieces[i, 1]
+                and self.pieces[i, 2] <= w.window_right
+            ):
+                return 0
+            first = (self.pieces[i, 0] - w.page) * down + (self.pieces[i, 1] - w.column) * right
+            last = first + (self.pieces[i, 2] - 1 - self.pieces[i, 1]) * right + 1
+            if first < 0 < last:
+                return area
+            farthest = max(farthest, last if first >= 0 else last + area)
+        return farthest
+
+    # -- Which boxes
+
+    @cython.cfunc
+    def bounding(self, count: cython.int) -> cython.int:
+        """Make one box around all pieces; return 1."""
+        box: cython.int[:, ::1] = self.boxes
+        i: cython.int
+        box[0, 0], box[0, 1] = self.pieces[0, 1], self.pieces[0, 2]
+        box[0, 2], box[0, 3] = self.pieces[0, 0], self.pieces[count - 1, 0] + 1
+        for i in range(1, count):
+            box[0, 0] = min(box[0, 0], self.pieces[i, 1])
+            box[0, 1] = max(box[0, 1], self.pieces[i, 2])
+        return 1
+
+    @cython.cfunc
+    def grown(self, count: cython.int) -> cython.int:
+        """Grow boxes from the pieces, one after the other; return how many, or 0 if they are too many."""
+        box: cython.int[:, ::1] = self.boxes
+        piece: cython.int
+        i: cython.int
+        new: cython.int
+        best: cython.int
+        boxes: cython.int = 0
+        for piece in range(count):
+            if boxes == _MOST:
+                return 0
+            box[boxes, 0], box[boxes, 1] = self.pieces[piece, 1], self.pieces[piece, 2]
+            box[boxes, 2], box[boxes, 3] = self.pieces[piece, 0], self.pieces[piece, 0] + 1
+            new = boxes
+            boxes += 1
+            while new >= 0:
+                best = -1
+                for i in range(boxes):
+                    if i != new and self._saved(i, new) > (self._saved(best, new) if best >= 0 else 0):
+                        best = i
+                if best >= 0:
+                    self._join(best, new)
+                    boxes -= 1
+                    self._swap(new, boxes)
+                    if best == boxes:
+                        best = new
+                new = best
+        return boxes
+
+    @cython.cfunc
+    @cython.inline
+    def _saved(self, i: cython.int, j: cython.int) -> cython.int:
+        """Bytes that joining two boxes saves."""
+        box: cython.int[:, ::1] = self.boxes
+        wide: cython.int = max(box[i, 1], box[j, 1]) - min(box[i, 0], box[j, 0])
+        high: cython.int = max(box[i, 3], box[j, 3]) - min(box[i, 2], box[j, 2])
+        one: cython.int = (box[i, 1] - box[i, 0]) * (box[i, 3] - box[i, 2])
+        other: cython.int = (box[j, 1] - box[j, 0]) * (box[j, 3] - box[j, 2])
+        return _WINDOW + one + other - wide * high
+
+    @cython.cfunc
+    def _join(self, one: cython.int, other: cython.int) -> cython.void:
+        """Make one box the one around both."""
+        box: cython.int[:, ::1] = self.boxes
+        box[one, 0] = min(box[one, 0], box[other, 0])
+        box[one, 1] = max(box[one, 1], box[other, 1])
+        box[one, 2] = min(box[one, 2], box[other, 2])
+        box[one, 3] = max(box[one, 3], box[other, 3])
+
+    @cython.cfunc
+    def _swap(self, one: cython.int, other: cython.int) -> cython.void:
+        side: cython.int
+        kept: cython.int
+        for side in range(4):
+            kept = self.boxes[one, side]
+            self.boxes[one, side] = self.boxes[other, side]
+            self.boxes[other, side] = kept
+
+    @cython.cfunc
+    def tall_first(self, count: cython.int) -> cython.int:
+        """Bring the boxes of more than one page to the front; return how many they are."""
+        i: cython.int
+        tall: cython.int = 0
+        for i in range(count):
+            if self.boxes[i, 3] - self.boxes[i, 2] > 1:
+                self._swap(i, tall)
+                tall += 1
+        return tall
+
+    @cython.cfunc
+    def cover(self, boxes: cython.int, piece: cython.int) -> cython.bint:
+        """Whether one of the first boxes holds a piece whole."""
+        i: cython.int
+        for i in range(boxes):
+            if (
+                self.boxes[i, 2] <= self.pieces[piece, 0] < self.boxes[i, 3]
+                and self.boxes[i, 0] <= self.pieces[piece, 1]
+                and self.pieces[piece, 2] <= self.boxes[i, 1]
+            ):
+                return True
+        return False
+
+    # -- Through the writer
+
+    @cython.cfunc
+    def cost(self, count: cython.int) -> cython.int:
+        """Bytes that writing the first boxes takes."""
+        self.writer.rehearse()
+        self.write(count)
+        return self.writer.rehearsed()
+
+    @cython.cfunc
+    def write(self, count: cython.int) -> cython.void:
+        """Write the first boxes, always the one next that needs the fewest commands."""
+        done: cython.int
+        i: cython.int
+        best: cython.int
+        for done in range(count):
+            best = done
+            for i in range(done + 1, count):
+                if self._commands(i) < self._commands(best):
+                    best = i
+            self._swap(done, best)
+            self._write_one(done, done == count - 1)
+        self.writer.finish()
+
+    @cython.cfunc
+    def _commands(self, i: cython.int) -> cython.int:
+        box: cython.int[:, ::1] = self.boxes
+        return self.writer.window_commands(box[i, 0], box[i, 1], box[i, 2], box[i, 3])
+
+    @cython.cfunc
+    def _write_one(self, i: cython.int, last: cython.bint) -> cython.void:
+        """Write a box; the last one only as far as something changed."""
+        box: cython.int[:, ::1] = self.boxes
+        w: Writer = self.writer
+        if not w.windowed():
+            downward: cython.bint = self._idle_tail(i, _VERTICAL) > self._idle_tail(i, _HORIZONTAL)
+            w.set_mode(_VERTICAL if downward else _HORIZONTAL)
+        w.window(box[i, 0], box[i, 1], box[i, 2], box[i, 3])
+        area: cython.int = (box[i, 1] - box[i, 0]) * (box[i, 3] - box[i, 2])
+        w.cells(area - self._idle_tail(i, w.mode) if last else area)
+
+    @cython.cfunc
+    def _idle_tail(self, i: cython.int, mode: cython.int) -> cython.int:
+        """Unchanged bytes at the end of a box that is written in one of the two modes."""
+        box: cython.int[:, ::1] = self.boxes
+        w: Writer = self.writer
+        page: cython.int = box[i, 3] - 1
+        column: cython.int = box[i, 1] - 1
+        idle: cython.int = 0
+        while w.known and w.new[page - w.top, column - w.left] == w.old[page - w.top, column - w.left]:
+            idle += 1
+            if mode == _VERTICAL:
+                page -= 1
+                if page < box[i, 2]:
+                    page, column = box[i, 3] - 1, column - 1
+            else:
+                column -= 1
+                if column < box[i, 0]:
+                    page, column = page - 1, box[i, 1] - 1
+        return idle
