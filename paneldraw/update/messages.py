@@ -44,8 +44,8 @@ class Writer:
         self.ram_width = controller.ram_width
         self.wraps = controller.column_wraps
         self.command_cost, self.data_cost = cost.command, cost.data
-        allowed = controller.chained_control and cost.chained is not None
-        self.chained_cost = cost.chained if allowed else -1
+        chained = cost.chained if controller.chained_control else None
+        self.chained_cost = -1 if chained is None else chained
         self._out, self._starts, self._stops = plan.buffer, plan.starts, plan.stops
         self._noted = np.zeros(7, np.intc)
         self._dry, self._kind = False, -1
@@ -108,7 +108,7 @@ class Writer:
         count: cython.int = self.pointer_commands(self.page, self.column, page, column)
         chained: cython.bint = (
             self._kind != _COMMAND
-            and 0 <= self.chained_cost
+            and self.chained_cost >= 0
             and self.chained_cost + 2 * count < self.command_cost + count + self.data_cost
         )
         if chained:

@@ -39,8 +39,6 @@ else:
     from paneldraw.update.windows import Windows
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
     from paneldraw.controllers import Controller
     from paneldraw.transports.base import Cost
 
@@ -72,7 +70,7 @@ class Planner:
     """
 
     fresh = cython.declare(object, visibility="readonly")
-    _plan: object
+    _plan = cython.declare(object)
     _writer: Writer
     _windows: Windows
     _with_windows: cython.bint
@@ -203,7 +201,7 @@ class Planner:
         windows: Windows = self._windows
         way: cython.int = _POINTER
         stream: cython.int = windows.stream(self._count)
-        if 0 < stream and self._jumps[0] + stream < best:
+        if stream > 0 and self._jumps[0] + stream < best:
             best, way = self._jumps[0] + stream, _STREAM
         cost: cython.int = windows.cost(windows.bounding(self._count))
         if cost < best:
