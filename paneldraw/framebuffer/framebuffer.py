@@ -9,7 +9,7 @@ import cython
 import numpy as np
 
 from paneldraw.framebuffer import pictures
-from paneldraw.framebuffer.arguments import LARGEST, as_samples, size, whole
+from paneldraw.framebuffer.arguments import LARGEST, as_samples, not_negative, size, whole
 
 if cython.compiled:
     from cython.cimports.paneldraw.framebuffer.arguments import NEAR, pointer_to_bytes
@@ -203,20 +203,168 @@ class Framebuffer(Shapes):
         """
         gray, alpha = pictures.to_gray(picture)
         levels = pictures.quantize(gray, self.surface.max_level, dither)
-        window: Surface = self.surface
-        left, top = whole("x", x), whole("y", y)
-        height, width = levels.shape
-        a, b = max(left, window.left), min(left + width, window.right)
-        c, d = max(top, window.top), min(top + height, window.bottom)
-        if a >= b or c >= d:
+        part = self._visible(whole("x", x), whole("y", y), levels.shape[1], levels.shape[0])
+        if part is None:
             return
-        part = (slice(c - top, d - top), slice(a - left, b - left))
-        below = self.pixels[c:d, a:b]
+        mine, its = part
+        below = self.pixels[mine]
         if alpha is None:
-            below[...] = levels[part]
+            below[...] = levels[its]
         else:
-            share = alpha[part].astype(np.int32)
-            below[...] = (below * (255 - share) + levels[part] * share + 127) // 255
+            share = alpha[its].astype(np.int32)
+            below[...] = (below * (255 - share) + levels[its] * share + 127) // 255
+
+    def blit(
+        self, source: Framebuffer | NDArray[np.uint8], x: Real, y: Real, key: Int = -1, palette: Any = None
+    ) -> None:
+        """Copy another framebuffer's pixels, its top-left pixel to (x, y).
+
+        Parameters
+        ----------
+        source : Framebuffer or ndarray of uint8, shape (height, width)
+            May be this framebuffer or a view of it. Levels of a framebuffer of another depth are scaled, so that its
+            highest level becomes this one's; an array's must be levels of this framebuffer.
+        x, y : int or float
+        key : int, default -1
+            The level, after `palette`, that is not copied; -1 for none.
+        palette : Framebuffer of height 1 or sequence of int, optional
+            Pixel or item k says which level stands for level k of the source, which then is not scaled.
+
+        Raises
+        ------
+        TypeError
+            If the source is neither.
+        ValueError
+            If an array holds a level, or a palette lacks one or holds one, that is none.
+
+        Examples
+        --------
+        >>> from paneldraw import Framebuffer
+        >>> stamp = Framebuffer(2, 2)
+        >>> stamp.line(0, 0, 1, 1)
+        >>> fb = Framebuffer(5, 2)
+        >>> fb.blit(stamp, 0, 0)
+        >>> fb.blit(stamp, 3, 0, palette=[1, 0])
+        >>> print(fb)
+        #...#
+        .#.#.
+        """
+        levels = pictures.levels_for(source, self.surface.max_level, palette)
+        part = self._visible(whole("x", x), whole("y", y), levels.shape[1], levels.shape[0])
+        if part is None:
+            return
+        mine, its = part
+        levels = levels[its]
+        if np.may_share_memory(levels, self.pixels):
+            levels = levels.copy()
+        key = size("key", key)
+        if key < 0:
+            self.pixels[mine] = levels
+        else:
+            np.copyto(self.pixels[mine], levels, where=levels != key)
+
+    def scroll(self, dx: Real, dy: Real, c: Level = None) -> None:
+        """Move the picture by (dx, dy) pixels. What nothing moves to stays as it was or, with `c`, gets that level.
+
+        Within `clip`, what is inside of the window moves, and nothing else.
+
+        Examples
+        --------
+        >>> from paneldraw import Framebuffer
+        >>> fb = Framebuffer(4, 2)
+        >>> fb.vline(0, 0, 2)
+        >>> fb.scroll(2, 0, 0)
+        >>> print(fb)
+        ..#.
+        ..#.
+        """
+        window = self.surface
+        part = self._visible(
+            window.left + whole("dx", dx),
+            window.top + whole("dy", dy),
+            window.right - window.left,
+            window.bottom - window.top,
+        )
+        inside = self.pixels[window.top : window.bottom, window.left : window.right]
+        before = inside.copy()
+        if c is not None:
+            inside[...] = self._level(c)
+        if part is not None:
+            mine, its = part
+            self.pixels[mine] = before[its]
+
+    def _visible(self, x: Int, y: Int, width: Int, height: Int) -> Any:
+        """The part of a picture at (x, y) that is in the window, as slices of the pixels here and there; or None."""
+        window = self.surface
+        left, right = max(x, window.left), min(x + width, window.right)
+        top, bottom = max(y, window.top), min(y + height, window.bottom)
+        if left >= right or top >= bottom:
+            return None
+        here = (slice(top, bottom), slice(left, right))
+        return here, (slice(top - y, bottom - y), slice(left - x, right - x))
+
+    # -- Parts of it
+
+    def clip(self, x: Real, y: Real, w: Real, h: Real) -> Clip:
+        """Confine drawing to a rectangle, for the length of a ``with`` block; within another one, to what both share.
+
+        Examples
+        --------
+        >>> from paneldraw import Framebuffer
+        >>> fb = Framebuffer(6, 3)
+        >>> with fb.clip(1, 0, 3, 2):
+        ...     fb.fill(1)
+        >>> print(fb)
+        .###..
+        .###..
+        ......
+        """
+        left, top = whole("x", x), whole("y", y)
+        right = left + not_negative("w", whole("w", w))
+        bottom = top + not_negative("h", whole("h", h))
+        return Clip(self, left, top, right, bottom)
+
+    def _window(self) -> Any:
+        return self.surface.left, self.surface.top, self.surface.right, self.surface.bottom
+
+    def _set_window(self, left: Int, top: Int, right: Int, bottom: Int) -> None:
+        limits = (-LARGEST, LARGEST)
+        left, top, right, bottom = (min(max(side, limits[0]), limits[1]) for side in (left, top, right, bottom))
+        self.surface.set_window(left, top, right, bottom)
+
+    def view(self, x: SupportsIndex, y: SupportsIndex, w: SupportsIndex, h: SupportsIndex) -> Framebuffer:
+        """Return a framebuffer over part of the same pixels, with (0, 0) at (x, y).
+
+        It clips to itself and has its own `antialias`, at first the same. Drawing on one shows on the other.
+
+        Raises
+        ------
+        ValueError
+            If the part does not lie within the framebuffer.
+
+        Examples
+        --------
+        >>> from paneldraw import Framebuffer
+        >>> fb = Framebuffer(6, 3)
+        >>> fb.view(2, 0, 3, 2).line(-9, 0, 9, 0)
+        >>> print(fb)
+        ..###.
+        ......
+        ......
+        """
+        x, y, w, h = size("x", x), size("y", y), size("w", w), size("h", h)
+        mine: Surface = self.surface
+        if x < 0 or y < 0 or w < 1 or h < 1 or x + w > mine.width or y + h > mine.height:
+            raise ValueError(
+                f"x, y, w, h must be a part of the {mine.width} x {mine.height} pixels, not {(x, y, w, h)}"
+            )
+        part: Framebuffer = Framebuffer.__new__(Framebuffer)
+        origin = mine.origin + y * mine.stride + x
+        part.surface = Surface(mine.memory, origin, mine.stride, w, h, mine.max_level)
+        part.pixels = self.pixels[y : y + h, x : x + w]
+        part.depth = self.depth
+        part._antialias = self._antialias
+        return part
 
     # -- As a picture
 
@@ -248,3 +396,22 @@ class Framebuffer(Shapes):
 
     def __repr__(self) -> str:
         return f"Framebuffer({self.width}, {self.height}, depth={self.depth})"
+
+
+class Clip:
+    """Confines a framebuffer's drawing to a window while its ``with`` block lasts; made by `Framebuffer.clip`."""
+
+    def __init__(self, framebuffer: Framebuffer, left: Int, top: Int, right: Int, bottom: Int) -> None:
+        self._framebuffer = framebuffer
+        self._inner = (left, top, right, bottom)
+
+    def __enter__(self) -> Framebuffer:
+        self._outer = self._framebuffer._window()
+        left, top, right, bottom = self._outer
+        inner = self._inner
+        left, top = max(left, inner[0]), max(top, inner[1])
+        self._framebuffer._set_window(left, top, max(min(right, inner[2]), left), max(min(bottom, inner[3]), top))
+        return self._framebuffer
+
+    def __exit__(self, *_: object) -> None:
+        self._framebuffer._set_window(*self._outer)

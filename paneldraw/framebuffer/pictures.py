@@ -121,6 +121,36 @@ def quantize(gray: Levels, max_level: int, dither: Dither | None = None) -> Leve
     raise ValueError(f'dither must be None, "bayer" or "floyd-steinberg", not {dither!r}')
 
 
+def levels_for(source: Any, max_level: int, palette: Any = None) -> Levels:
+    """Return the levels 0 ... `max_level` that a framebuffer or an array of levels stands for, by a palette or scaled.
+
+    Raises
+    ------
+    TypeError
+        If `source` is neither.
+    ValueError
+        If it, or the palette, has no such levels.
+    """
+    levels = getattr(source, "pixels", source)
+    if not isinstance(levels, np.ndarray) or levels.dtype != np.uint8 or levels.ndim != 2:
+        raise TypeError(
+            f"source must be a Framebuffer or a uint8 array of shape (height, width), not {type(source).__name__}"
+        )
+    if palette is not None:
+        table = np.asarray(getattr(palette, "pixels", palette)).ravel()
+        if table.dtype.kind not in "iu" or not table.size or table.min() < 0 or table.max() > max_level:
+            raise ValueError(f"palette must hold levels from 0 to {max_level}")
+        if levels.max() >= len(table):
+            raise ValueError(f"palette must have a level for each of the source, and has none for {levels.max()}")
+        return table.astype(np.uint8)[levels]
+    of = getattr(source, "max_level", max_level)
+    if of != max_level:
+        return ((levels.astype(np.int32) * (2 * max_level) + of) // (2 * of)).astype(np.uint8)
+    if levels is source and levels.size and levels.max() > max_level:
+        raise ValueError(f"source must hold levels from 0 to {max_level}, and holds {levels.max()}")
+    return levels
+
+
 def _bayer_matrix() -> NDArray[np.int32]:
     matrix = np.zeros((1, 1), np.int32)
     for _ in range(3):
