@@ -57,6 +57,9 @@ BAD_LINE_PAYLOAD = 48
 #: slow one, so that the bus is done soon after the wire.
 SHORT = 48
 
+#: Rates outside are none that a serial line has.
+SENSIBLE_RATES = range(1_200, 20_000_001)
+
 _PROBATION = 0.3
 
 _FAULTS = {
@@ -276,7 +279,7 @@ class HostLink:
         )
 
     def _accept(self, reply: HelloReply) -> None:
-        if not reply.version:
+        if not OLDEST_VERSION <= reply.version <= NEWEST_VERSION:
             side = "paneldraw" if reply.oldest > NEWEST_VERSION else "the board's firmware"
             raise VersionError(
                 f"the board on {self._line.name} speaks protocol versions {reply.oldest} to {reply.newest}, this "
@@ -288,7 +291,7 @@ class HostLink:
         self._size_frames()
 
     def _choose_rate(self) -> None:
-        offered = self.device.bauds
+        offered = [rate for rate in self.device.bauds if rate in SENSIBLE_RATES]
         wanted = self._wanted_rate or (offered[0] if offered else BASE_BAUDRATE)
         if wanted == BASE_BAUDRATE or not offered:
             return

@@ -14,13 +14,16 @@ import firmware_protocol
 FIRMWARE = Path(firmware_protocol.__file__).parent / "firmware"
 
 
-def made(target: str, result: str, build: Path, *needed: str) -> Path:
+def made(target: str, result: str, build: Path, *needed: str, options: str = "") -> Path:
     """Build a target of the firmware's Makefile, or skip where a compiler is missing."""
     for tool in ("make", *needed):
         if not shutil.which(tool):
             pytest.skip(f"{tool} is not installed")
     done = subprocess.run(
-        ["make", "-C", str(FIRMWARE), target, f"BUILD={build}"], capture_output=True, text=True, check=False
+        ["make", "-C", str(FIRMWARE), target, f"BUILD={build}", f"OPTIONS={options}"],
+        capture_output=True,
+        text=True,
+        check=False,
     )
     assert done.returncode == 0, done.stdout + done.stderr
     return build / result

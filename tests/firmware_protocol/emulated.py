@@ -6,6 +6,7 @@ import ctypes
 import random
 import shutil
 import subprocess
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -16,13 +17,13 @@ HZ = 16_000_000
 RIG = Path(__file__).parent / "rig" / "rig.c"
 
 
-def built(build: Path) -> tuple[Path, Path]:
+def built(build: Path, options: str = "") -> tuple[Path, Path]:
     """Return the rig's library and the firmware, or skip where something to build them with is missing."""
     if not Path("/usr/include/simavr").exists():
         pytest.skip("libsimavr-dev is not installed")
     if not shutil.which("cc"):
         pytest.skip("cc is not installed")
-    elf = made("atmega328p", "atmega328p/paneldraw.elf", build, "avr-gcc")
+    elf = made("atmega328p", "atmega328p/paneldraw.elf", build, "avr-gcc", options=options)
     library = build / "rig.so"
     flags = ["-O2", "-Wall", "-Wextra", "-Werror", "-shared", "-fPIC"]
     done = subprocess.run(
@@ -108,7 +109,7 @@ class BoardPort:
         self.board = board
         self.noise = noise or Noise()
         self.rng = random.Random(seed)
-        self.panel = PagePanel()
+        self.panel: Callable[[bytes], None] | PagePanel = PagePanel()
         self.baudrate, self.timeout, self.is_open = 115200, 0.02, True
         self.received = bytearray()
         self.carried = 0

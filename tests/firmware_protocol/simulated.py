@@ -84,7 +84,7 @@ class SimulatedPort:
         self.events: list[tuple[float, int, Callable[[], None]]] = []
         self.waiting: list[tuple[int, int]] = []
         self.received = bytearray()
-        self.panel = PagePanel()
+        self.panel: Callable[[bytes], None] | PagePanel = PagePanel()
         self.mangle: Callable[[bytes], bytes] = lambda replies: replies
         self.device = Device(self._write_panel, profile=profile, clock=lambda: self.now)
 

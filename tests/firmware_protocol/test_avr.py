@@ -18,7 +18,7 @@ from c_core import FIRMWARE
 from emulated import HZ, Board, BoardPort, built
 from simulated import Noise, PagePanel, whole
 
-from firmware_protocol import DeviceResetError, Fault, HostLink, PanelFaultError
+from firmware_protocol import DeviceResetError, Fault, HostLink, LinkLostError, PanelFaultError, VersionError
 from firmware_protocol.frames import FrameDecoder
 from firmware_protocol.messages import Ack, Hello, HelloReply, Nak, Poll, Status, decode, encode
 
@@ -261,15 +261,20 @@ def test_a_host_that_leaves_at_a_fast_rate_finds_the_board_again(board: Board) -
 
 
 class PtyBoard:
-    """The board behind a pseudo-terminal, at the speed of its wire and of the clock on the wall."""
+    """The board behind a pseudo-terminal at ``path``, at the speed of its wire and of the clock on the wall."""
 
-    def __init__(self, board: Board) -> None:
+    def __init__(self, board: Board, path: Path) -> None:
+        self.board = board
+        self.path = path
+        self.panel = PagePanel()
+        self.plug_in()
+
+    def plug_in(self) -> None:
         import tty
 
-        self.board = board
-        self.panel = PagePanel()
         self.far, self.near = os.openpty()
         tty.setraw(self.near)
+        self.path.symlink_to(os.ttyname(self.near))
         self.stop = threading.Event()
         self.thread = threading.Thread(target=self.run, daemon=True)
         self.thread.start()
@@ -286,22 +291,43 @@ class PtyBoard:
             for content in self.board.transactions():
                 self.panel(content)
 
-    def close(self) -> None:
+    def pull_out(self) -> None:
         self.stop.set()
         self.thread.join()
+        self.path.unlink()
         os.close(self.far)
         os.close(self.near)
 
 
-def test_real_pyserial_over_a_real_pty_to_the_firmware(board: Board) -> None:
+def test_real_pyserial_over_a_real_pty_to_the_firmware(board: Board, tmp_path: Path) -> None:
     serial = pytest.importorskip("serial", reason="pyserial is not installed")
     pytest.importorskip("termios", reason="no pseudo-terminals here")
-    behind = PtyBoard(board)
-    with HostLink(serial.Serial(os.ttyname(behind.near), 115200), baudrate=115200) as link:
-        picture = screens(1)[0]
-        link.write(whole(picture))
-    behind.close()
-    assert behind.panel.ram == picture
+    behind = PtyBoard(board, tmp_path / "ttyBOARD")
+    first, second = screens(2)
+    with HostLink(serial.Serial(str(behind.path), 115200), baudrate=115200) as link:
+        link.write(whole(first))
+        behind.pull_out()
+        assert behind.panel.ram == first
+        with pytest.raises(LinkLostError, match="ttyBOARD"):
+            link.write(whole(second))
+        board.reset(power=True)
+        behind.plug_in()
+        link.write(whole(second))
+        assert link.stats.sessions == 2
+    behind.pull_out()
+    assert behind.panel.ram == second
+
+
+@pytest.mark.parametrize(("oldest", "newest", "advice"), [(2, 3, "update paneldraw"), (1, 9, "")])
+def test_firmware_of_other_versions(tmp_path: Path, oldest: int, newest: int, advice: str) -> None:
+    board = Board(*built(tmp_path, f"-DPD_OLDEST_VERSION={oldest} -DPD_NEWEST_VERSION={newest}"))
+    board.run(HZ // 50)
+    if advice:
+        with pytest.raises(VersionError, match=advice):
+            joined(board)
+    else:
+        assert joined(board)[1].device.version == 1
+    board.close()
 
 
 def test_the_readme_names_the_files_that_are_made() -> None:

@@ -22,8 +22,8 @@ from firmware_protocol import (
     VersionError,
 )
 from firmware_protocol.device import UNO
-from firmware_protocol.frames import FrameDecoder
-from firmware_protocol.messages import HelloReply
+from firmware_protocol.frames import Frame, FrameDecoder
+from firmware_protocol.messages import Ack, Boot, HelloReply, Nak, PanelBus, Status, encode
 
 EACH = 0.001
 NOISES = {
@@ -231,6 +231,46 @@ def test_a_port_that_is_no_panel(answer, says: str) -> None:
     with pytest.raises(NoDeviceError, match=says):
         joined(port)
     assert port.now < 4
+
+
+@settings(max_examples=150, deadline=None)
+@given(st.randoms(use_true_random=False), st.integers(0, 255))
+def test_whatever_a_device_says_ends_in_a_link_error_or_well(random: random.Random, manners: int) -> None:
+    """The device answers each frame with messages of any content, garbage, or nothing."""
+
+    def number(bits: int) -> int:
+        return random.choice([0, 1, 33, (1 << bits) - 1, random.getrandbits(bits)])
+
+    def anything(frame: Frame | None) -> bytes:
+        kind = random.choice(["ack", "status", "nak", "boot", "garbage", "nothing", "hello"])
+        seq = frame.seq if frame and random.random() < 0.7 else number(8)
+        fault = random.choice([Fault.NONE, Fault.NONE, *Fault])
+        if kind == "nothing" or (frame and frame.kind == 1 and random.random() < 0.8) or kind == "hello":
+            nonce = int.from_bytes(frame.payload[:4], "little") if frame and frame.kind == 1 else number(32)
+            sizes = [random.choice([250, number(16)]), random.choice([464, number(16)]), number(16), number(16)]
+            rates = tuple(random.choice([115_200, 500_000, number(32)]) for _ in range(random.randrange(4)))
+            version = random.choice([1, 1, 1, 0, number(8)])
+            return encode(HelloReply(nonce, version, 1, 1, 0, 0, PanelBus.I2C, 60, *[True] * 4, *sizes, rates, "x", ""))
+        return {
+            "ack": encode(Ack(seq, fault)),
+            "status": encode(Status(seq, number(8), fault)),
+            "nak": encode(Nak(seq)),
+            "boot": encode(Boot(number(16), number(8))) if random.random() < 0.1 else b"",
+            "garbage": random.randbytes(random.randrange(400)),
+        }[kind]
+
+    decoder = FrameDecoder()
+    port = Other(lambda data: b"".join(anything(f) for f in decoder.feed(data) if manners or random.random() < 0.9))
+    start = port.now
+    try:
+        link = joined(port)
+        for _ in range(4):
+            link.write([(True, random.randbytes(random.randrange(700)))])
+        link.status()
+        link.close()
+    except LinkError:
+        pass
+    assert port.now - start < 200
 
 
 def test_noise_before_the_handshake() -> None:

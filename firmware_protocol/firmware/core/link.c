@@ -131,8 +131,8 @@ static void say_hello(void)
     for (uint8_t i = 0; i < 4; i++)
         put_raw(link.nonce[i]);
     put_raw(link.version);
-    put_raw(1);
-    put_raw(1);
+    put_raw(PD_OLDEST_VERSION);
+    put_raw(PD_NEWEST_VERSION);
     put(link.boot, 2);
     put_raw(link.cause);
     put_raw(PD_BUS);
@@ -365,7 +365,10 @@ static void greet(void)
 {
     if (in.length < ENVELOPE + 6)
         return;
-    link.version = at(in.start + 6) <= 1 && at(in.start + 7) >= 1;
+    uint8_t oldest = at(in.start + 6), newest = at(in.start + 7);
+    if (newest > PD_NEWEST_VERSION)
+        newest = PD_NEWEST_VERSION;
+    link.version = newest >= oldest && newest >= PD_OLDEST_VERSION ? newest : 0;
     link.expected = 0;
     link.armed = true;
     queue(HELLO, 0);

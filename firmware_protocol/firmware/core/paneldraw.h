@@ -21,6 +21,12 @@
 #define PD_RESERVE 48
 #define PD_WINDOW (PD_RING_SIZE - PD_RESERVE)
 
+/* The versions of the protocol that this is. */
+#ifndef PD_OLDEST_VERSION
+#define PD_OLDEST_VERSION 1
+#define PD_NEWEST_VERSION 1
+#endif
+
 enum pd_fault {
     PD_OK,
     PD_ADDRESS_NACK,
