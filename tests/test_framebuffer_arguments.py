@@ -94,7 +94,7 @@ def test_lines_have_a_style_that_exists(fb, call):
     for width in (None, "2", 1j, [1]):
         refused(fb, TypeError, "^width must be a number", call, **good, width=width)
     for cap in ("", "flat", None, 1, []):
-        refused(fb, ValueError, '^cap must be "square" or "butt", not ', call, **good, cap=cap)
+        refused(fb, ValueError, r"^cap must be .*'butt', 'square', 'round', not ", call, **good, cap=cap)
     for antialias in (4, True, "4", 0, [], object()):
         refused(fb, TypeError, "^antialias must be None or a Supersample", call, **good, antialias=antialias)
 

@@ -76,14 +76,14 @@ class Framebuffer(Shapes):
     --------
     >>> from paneldraw import Framebuffer
     >>> fb = Framebuffer(9, 5)
-    >>> fb.line(0, 4, 8, 0)
+    >>> fb.line(0, 0, 8, 4)
     >>> fb.circle(4, 2, 1)
     >>> print(fb)
-    .......##
+    #........
+    .##.#....
+    ...###...
     ....###..
-    ...#.#...
-    ..###....
-    ##.......
+    .......##
     """
 
     pixels: NDArray[np.uint8]

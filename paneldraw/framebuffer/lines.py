@@ -136,18 +136,18 @@ class Lines(Paths):
         >>> fb = Framebuffer(8, 4)
         >>> fb.line(0, 0, 7, 3)
         >>> print(fb)
-        #.......
-        .###....
-        ....###.
-        .......#
+        ##......
+        ..##....
+        ....##..
+        ......##
         """
         if antialias is ...:
             antialias = self._antialias
         self._dip(c, op)
-        if antialias is None and width == 1 and dash is None and algorithm == "bresenham" and cap in CAPS:
+        shape: cython.int = _SQUARE if cap == "square" else choice("cap", cap, CAPS)
+        if antialias is None and width == 1 and dash is None and algorithm == "bresenham":
             self._thin(x1, y1, x2, y2)
             return
-        shape: cython.int = choice("cap", cap, CAPS)
         dda: cython.bint = choice("algorithm", algorithm, _ALGORITHMS)
         samples: Supersample = as_samples(antialias)
         wide = line_width(width)

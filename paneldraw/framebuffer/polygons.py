@@ -160,8 +160,8 @@ class Polygons(Lines):
         >>> fb.poly(0, 0, [0, 0, 6, 0, 3, 4], fill=True)
         >>> print(fb)
         ######.
-        .####..
-        ..##...
+        .#####.
+        ..###..
         ...#...
         """
         nonzero: cython.bint = choice("rule", rule, _RULES)

@@ -48,9 +48,9 @@ class Supersample:
     >>> fb = Framebuffer(8, 3, depth=4)
     >>> fb.line(0, 0, 7, 2, antialias=Supersample(4))
     >>> print(fb)
-    c95.....
-    36aca63.
-    .....59c
+    fb73....
+    159dd951
+    ....37bf
     """
 
     def __init__(self, n: object = 4, reference: object = "center") -> None:
