@@ -98,7 +98,8 @@ class Writer:
         """How many commands lead the page pointer from one place to another."""
         if column < 0:
             return 2 + (page != to_page)
-        return (page != to_page) + ((column ^ to_column) & 15 != 0) + (column >> 4 != to_column >> 4)
+        # From 0 on, because numpy's truth values, which the uncompiled planner meets, do not add up to 2.
+        return 0 + (page != to_page) + ((column ^ to_column) & 15 != 0) + (column >> 4 != to_column >> 4)
 
     @cython.cfunc
     def point(self, page: cython.int, column: cython.int) -> cython.void:
