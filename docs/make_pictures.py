@@ -1,4 +1,4 @@
-"""Draws the pictures of the README with the package itself: ``python docs/make_pictures.py``."""
+"""Draws the pictures of the README and of gallery.md with the package itself: ``python docs/make_pictures.py``."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import gallery
 import numpy as np
 from PIL import Image
 
@@ -57,7 +58,7 @@ def glass_of(script: str) -> Any:
         return np.load(Path(folder, "glass.npy"))
 
 
-PICTURES: dict[str, Callable[[], Image.Image]] = {"lines.png": lines, "hello.png": hello}
+PICTURES: dict[str, Callable[[], Image.Image]] = {"lines.png": lines, "hello.png": hello, **gallery.pictures()}
 
 
 def main() -> None:

@@ -1,0 +1,70 @@
+"""The pages under docs/: every picture is what the code beside it draws, every excerpt and number what the code has."""
+
+from __future__ import annotations
+
+import importlib
+import re
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from paneldraw import Framebuffer
+from paneldraw.raster.strokes import CAPS, JOINS
+from paneldraw.raster.surface import OPS
+
+DOCS = Path(__file__).parent.parent / "docs"
+NOT_DRAWING = {"antialias", "depth", "height", "max_level", "pixels", "save", "to_image", "width"}
+
+
+def module(name):
+    """A script of the pages, loaded anew: it uses the package that is in place."""
+    sys.path.insert(0, str(DOCS))
+    try:
+        sys.modules.pop(name, None)
+        return importlib.import_module(name)
+    finally:
+        sys.path.remove(str(DOCS))
+        sys.modules.pop(name, None)
+
+
+ENTRIES = list(module("gallery").entries())
+CODE = "\n".join(code for _, _, code in ENTRIES)
+
+
+@pytest.mark.usefixtures("package")
+def test_the_gallery_shows_what_its_code_draws():
+    gallery = module("gallery")
+    for name, caption, code in ENTRIES:
+        drawn = gallery.draw(code, caption).convert("RGB")
+        with Image.open(DOCS / name) as file:
+            shown = file.convert("RGB")
+        assert drawn.size == shown.size, name
+        assert np.array_equal(drawn, shown), f"{name} is not what its code draws; run docs/make_pictures.py"
+
+
+def test_each_picture_is_shown_once_and_there_are_no_others():
+    names = [name for name, _, _ in ENTRIES]
+    assert sorted(names) == sorted(f"pictures/{file.name}" for file in (DOCS / "pictures").iterdir())
+
+
+def test_the_pictures_of_the_gallery_differ():
+    pictures = {}
+    for name, _, code in ENTRIES:
+        fb = module("gallery").run(code)
+        pictures.setdefault((fb.depth, fb.pixels.tobytes()), []).append(name)
+    assert [names for names in pictures.values() if len(names) > 1] == []
+
+
+@pytest.mark.parametrize("call", sorted(name for name in dir(Framebuffer) if not name.startswith("_")))
+def test_every_drawing_call_is_in_the_gallery(call):
+    assert call in NOT_DRAWING or re.search(rf"\bfb\.{call}\(", CODE)
+
+
+@pytest.mark.parametrize(
+    "word", [*OPS, *CAPS, *JOINS, "even-odd", "nonzero", "dda", "bayer", "floyd-steinberg", "corner", "closed", "dash"]
+)
+def test_every_option_is_in_the_gallery(word):
+    assert f'"{word}"' in CODE or f"{word}=" in CODE
