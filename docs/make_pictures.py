@@ -1,4 +1,7 @@
-"""Draws the pictures of the README and of gallery.md with the package itself: ``python docs/make_pictures.py``."""
+"""Draws the pictures of the README and of gallery.md, and refreshes what algorithms.md has from the code.
+
+``python docs/make_pictures.py``
+"""
 
 from __future__ import annotations
 
@@ -14,6 +17,7 @@ from typing import Any
 
 import gallery
 import numpy as np
+import worked_examples
 from PIL import Image
 
 from paneldraw import Framebuffer, Supersample, simulator
@@ -62,9 +66,11 @@ PICTURES: dict[str, Callable[[], Image.Image]] = {"lines.png": lines, "hello.png
 
 
 def main() -> None:
-    """Write every picture beside this script."""
+    """Write every picture beside this script, and the page of worked examples anew."""
     for name, draw in PICTURES.items():
         draw().save(HERE / name, optimize=True)
+    page = worked_examples.PAGE
+    page.write_text(worked_examples.page(page.read_text(encoding="utf-8")), encoding="utf-8")
 
 
 if __name__ == "__main__":

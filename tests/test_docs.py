@@ -68,3 +68,20 @@ def test_every_drawing_call_is_in_the_gallery(call):
 )
 def test_every_option_is_in_the_gallery(word):
     assert f'"{word}"' in CODE or f"{word}=" in CODE
+
+
+@pytest.mark.parametrize("page", ["gallery.md", "algorithms.md"])
+def test_links_lead_somewhere(page):
+    text = (DOCS / page).read_text(encoding="utf-8")
+    titles = re.findall(r"^#+ (.*)$", text, re.M)
+    anchors = {re.sub(r"[^\w -]", "", title).lower().replace(" ", "-") for title in titles}
+    for link in re.findall(r"\]\((.*?)\)", text):
+        assert link[1:] in anchors if link.startswith("#") else (DOCS / link).exists(), link
+
+
+def test_the_excerpts_and_tables_are_what_the_code_has():
+    examples = module("worked_examples")
+    page = examples.PAGE.read_text(encoding="utf-8")
+    assert examples.page(page) == page, "run docs/make_pictures.py"
+    assert page.count("```python") == len(examples._EXCERPT.findall(page)), "an excerpt follows no link to its function"
+    assert page.count("<!-- end -->") == len(examples._TABLE.findall(page)) > 8

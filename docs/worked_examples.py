@@ -1,0 +1,283 @@
+"""The excerpts and tables of algorithms.md.
+
+An excerpt follows a link to its function; of the function it shows the lines from its own first line to its own last
+one. A table stands between ``<!-- NAME -->`` and ``<!-- end -->``, and the function NAME makes it: it runs the raster
+modules uncompiled and notes what their variables hold.
+"""
+
+from __future__ import annotations
+
+import ast
+import importlib
+import inspect
+import math
+import re
+import sys
+import textwrap
+from collections.abc import Callable, Iterable
+from fractions import Fraction
+from functools import cache, partial
+from pathlib import Path
+from types import FrameType
+from typing import Any
+
+from paneldraw._compiled import MODULES
+from paneldraw._interpreted import load_sources
+
+PAGE = Path(__file__).with_name("algorithms.md")
+ROOT = PAGE.parent.parent
+
+_EXCERPT = re.compile(
+    r"(?P<head>^\[`(?P<name>[\w.]+)`\]\(\.\./(?P<file>[\w/.]+)\).*\n(?:.+\n)*\n```python\n)(?P<code>(?s:.*?))(?=^```$)",
+    re.M,
+)
+_TABLE = re.compile(r"(?P<head>^<!-- (?P<name>(?!end)\w+) -->\n)(?s:.*?)(?=^<!-- end -->$)", re.M)
+
+
+def page(text: str) -> str:
+    """Return the page with its excerpts and tables as the code has them."""
+    text = _EXCERPT.sub(lambda found: found["head"] + excerpt(found["file"], found["name"], found["code"]), text)
+    return _TABLE.sub(lambda found: found["head"] + globals()[found["name"]]() + "\n", text)
+
+
+def excerpt(file: str, name: str, shown: str) -> str:
+    """Return the lines of a function, or a class's method, from the first line of `shown` to its last one."""
+    source = (ROOT / file).read_text(encoding="utf-8")
+    node: Any = ast.parse(source)
+    for part in name.split("."):
+        node = next(child for child in node.body if getattr(child, "name", "") == part)
+    lines = textwrap.dedent("\n".join(source.splitlines()[node.lineno - 1 : node.end_lineno])).splitlines()
+    wanted = [line.strip() for line in shown.strip().splitlines()]
+    stripped = [line.strip() for line in lines]
+    try:
+        start = stripped.index(wanted[0])
+        end = stripped.index(wanted[-1], start)
+    except ValueError:
+        raise ValueError(f"{name} in {file} has no lines from {wanted[0]!r} to {wanted[-1]!r}") from None
+    return textwrap.dedent("\n".join(lines[start : end + 1])) + "\n"
+
+
+# -- The raster modules at work
+
+
+@cache
+def plain() -> dict[str, Any]:
+    """The modules that are compiled otherwise, as plain Python, by the last part of their names in raster."""
+    compiled = {name: sys.modules.pop(name) for name in MODULES if name in sys.modules}
+    try:
+        load_sources()
+        loaded = {name: sys.modules[name] for name in MODULES}
+    finally:
+        for name, module in compiled.items():
+            sys.modules[name] = module
+            setattr(importlib.import_module(name.rpartition(".")[0]), name.rpartition(".")[2], module)
+    raster = {name.rpartition(".")[2]: module for name, module in loaded.items() if ".raster." in name}
+    return raster | {"Framebuffer": loaded["paneldraw.framebuffer.framebuffer"].Framebuffer}
+
+
+def watch(
+    function: Any, line: str, run: Callable[[], object], look: Callable[[dict[str, Any]], Any] = dict
+) -> list[Any]:
+    """Call `run`, and `look` at the variables of an uncompiled function whenever it comes to a line of this text."""
+    source, first = inspect.getsourcelines(function)
+    numbers = {first + i for i, text in enumerate(source) if text.strip() == line}
+    if not numbers:
+        raise ValueError(f"{function.__name__} has no line {line!r}")
+    seen = []
+
+    def at_line(frame: FrameType, event: str, _: object) -> Any:
+        if event == "line" and frame.f_lineno in numbers:
+            seen.append(look(frame.f_locals))
+        return at_line
+
+    before = sys.gettrace()
+    sys.settrace(lambda frame, _event, _: at_line if frame.f_code is function.__code__ else None)
+    try:
+        run()
+    finally:
+        sys.settrace(before)
+    return seen
+
+
+def table(heads: str, rows: Iterable[Iterable[object]]) -> str:
+    """A table with these heads, which are separated by bars, and rows."""
+    lines = ["| " + " | ".join(map(str, row)) + " |" for row in (heads.split("|"), *rows)]
+    lines.insert(1, "|---" * (heads.count("|") + 1) + "|")
+    return "\n" + re.sub(r"-(?=\d)", "\N{MINUS SIGN}", "\n".join(lines)) + "\n"
+
+
+def panel(fb: Any) -> str:
+    """What is on a framebuffer, as a block of text."""
+    return f"\n```\n{fb}\n```\n"
+
+
+# -- Lines one pixel wide
+
+X1, Y1, X2, Y2 = LINE = (2, 1, 13, 8)
+SIZE = (16, 10)
+
+
+def _line_surface() -> Any:
+    surface = plain()["Framebuffer"](*SIZE).surface
+    surface.dip(1, 0)
+    return surface
+
+
+def _pixel(i: int) -> str:
+    return f"({i % SIZE[0]}, {i // SIZE[0]})"
+
+
+def dda() -> str:
+    lines = plain()["lines"]
+    steps = watch(lines.dda_part, "above += slope", lambda: lines.dda_part(_line_surface(), *LINE, 0, lines.WHOLE))
+    rows = [
+        (k, at["x"], f"{Y1 + k * (Y2 - Y1) / (X2 - X1):.3f}", f"{at['above']:.3f}", f"({at['x']}, {at['y']})")
+        for k, at in enumerate(steps)
+    ]
+    return table("step|x|exact y|`above`|pixel", rows)
+
+
+def bresenham() -> str:
+    lines, surface = plain()["lines"], _line_surface()
+    rows = []
+    for k in range(X2 - X1 + 1):
+        alone = partial(lines.bresenham_part, surface, *LINE, k, k + 1)
+        at = watch(lines.bresenham_part, "pixels[i] = ink[pixels[i]]", alone)[0]
+        choice = f"stay: p + {at['stay']}" if at["p"] < 0 else f"next row: p \N{MINUS SIGN} {-at['move']}"
+        rows.append((k, _pixel(at["i"]), at["p"], choice if k < X2 - X1 else "done"))
+    return table("k|pixel|p<sub>k</sub>|so", rows)
+
+
+def bresenham_clipped() -> str:
+    lines, surface = plain()["lines"], _line_surface()
+    surface.set_window(6, 0, 11, SIZE[1])
+    (at,) = watch(
+        lines.bresenham_part,
+        "count: cython.longlong = last - first + 1",
+        lambda: lines.bresenham(surface, *LINE),
+    )
+    return table(
+        "`first`|`last`|`moved`|pixel|p",
+        [(*(at[name] for name in ("first", "last", "moved")), _pixel(at["i"]), at["p"])],
+    )
+
+
+def bresenham_both_ends() -> str:
+    lines = plain()["lines"]
+    steps = watch(lines.bresenham_part, "pixels[i] = ink[pixels[i]]", lambda: lines.bresenham(_line_surface(), *LINE))
+    return table(
+        "turn|from the start|p|from the end|q",
+        [(k, _pixel(at["i"]), at["p"], _pixel(at["j"]), at["q"]) for k, at in enumerate(steps)],
+    )
+
+
+# -- Shapes by reference points
+
+
+def thick() -> str:
+    thick, fb = plain()["thick"], plain()["Framebuffer"](13, 11)
+    steps = watch(
+        thick.slab,
+        "spans[2 * row] = max(bound[0], bound[1])",
+        lambda: fb.line(2, 2, 10, 8, width=3, cap="butt"),
+        lambda at: (at["y"], *at["bound"], (max(at["bound"][:2]), min(at["bound"][2:])), at),
+    )
+    at = steps[0][-1]
+    numbers = [
+        (name, f"{at[name]:,}".replace(",", " ")) for name in ("dx", "dy", "squared", "inside", "outside", "whole")
+    ]
+    rows = [(*step[:5], f"{step[5][0]} … {step[5][1] - 1}" if step[5][0] < step[5][1] else "none") for step in steps]
+    return (
+        table("name|value", [(f"`{name}`", value) for name, value in numbers])
+        + table("row|left side|left end|right side|right end|columns", rows)
+        + panel(fb)
+    )
+
+
+def ties() -> str:
+    fb = plain()["Framebuffer"](14, 12, 2)
+    fb.line(4, 1, 12, 7, 1, width=5, cap="butt", op="add")
+    fb.line(1, 5, 9, 11, 2, width=5, cap="butt", op="add")
+    return panel(fb)
+
+
+def supersampled_row() -> str:
+    supersample, fb = plain()["supersample"], plain()["Framebuffer"](8, 3, 4)
+    row, spans = watch(
+        supersample.paint,
+        "if first < last:",
+        lambda: fb.line(0, 0, 7, 2, antialias=supersample.Supersample(4)),
+        lambda at: (list(at["row"]), list(at["spans"])),
+    )[1]
+    sums = [sum(row[: x + 1]) for x in range(8)]
+    spans_of = [(k, f"{spans[2 * k]} … {spans[2 * k + 1] - 1}") for k in range(4)]
+    return (
+        table("sub-scanline|sub-pixels inside", spans_of)
+        + table(
+            "pixel|" + "|".join(map(str, range(8))),
+            [
+                ("difference", *row[:8]),
+                ("count of 16", *sums),
+                ("level of 15", *fb.pixels[1]),
+            ],
+        )
+        + panel(fb)
+    )
+
+
+def levels() -> str:
+    rows = []
+    for covered in range(5):
+        row: list[object] = [f"{covered} of 4"]
+        for depth in (1, 2, 4, 8):
+            surface = (fb := plain()["Framebuffer"](1, 1, depth)).surface
+            surface.dip(fb.max_level, 0)
+            surface.row[0] = covered
+            surface.blend(0, 0, 1, 4)
+            row.append(fb.pixels[0, 0])
+        rows.append(row)
+    return table("counted|depth 1|depth 2|depth 4|depth 8", rows)
+
+
+def polygon() -> str:
+    polygons, fb = plain()["polygons"], plain()["Framebuffer"](13, 11)
+    corners = [(1, 1), (11, 4), (4, 9)]
+    names = "ABC"
+    edges: list[list[object]] = []
+
+    def look(at: dict[str, Any]) -> list[object]:
+        if not edges:
+            for i, edge in enumerate(at["edges"]):
+                edges.append([names[i], corners[i - 1], corners[i], edge.first, edge.end, _step(edge)])
+        standing = []
+        for i in at["active"][: at["crossing"]]:
+            (x1, y1), (x2, y2) = corners[i - 1], corners[i]
+            crossing = x1 + Fraction((x2 - x1) * (at["y"] - y1), y2 - y1)
+            standing.append(f"{names[i]}: {float(crossing):.2f} → {at['edges'][i].bound}")
+        a, b = (at["edges"][i].bound for i in at["active"][:2])
+        return [at["y"], *standing, f"{a} … {b - 1}" if a < b else "none"]
+
+    rows = watch(polygons._fill, "winding = 0", lambda: fb.poly(0, 0, corners, fill=True), look)
+    return (
+        table("edge|from|to|first row|end row|x a row", edges)
+        + table("row|first active|second active|columns", rows)
+        + panel(fb)
+    )
+
+
+def _step(edge: Any) -> str:
+    return f"{edge.step} + {edge.rest_step / edge.divisor:.3f}"
+
+
+def joins() -> str:
+    strokes, half = plain()["strokes"], 25600
+    rows = []
+    for turn in (30, 60, 90, 120, 150, 152, 170):
+        contours = strokes.Contours()
+        u = math.cos(math.radians(turn)), math.sin(math.radians(turn))
+        strokes._join(contours, 0, 0, 1, 0, *u, half, strokes.JOINS["miter"])
+        mitered = contours.count == 4
+        long = 1 / math.cos(math.radians(turn) / 2)
+        drawn = math.hypot(*contours.points[4:6]) / half
+        rows.append((f"{turn}°", f"{long:.2f}", f"miter, {drawn:.2f}" if mitered else "bevel"))
+    return table("turn by|1 / cos(turn / 2)|drawn", rows)
