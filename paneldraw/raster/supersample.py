@@ -103,9 +103,12 @@ def paint(
     first: cython.Py_ssize_t = high
     last: cython.Py_ssize_t = low
     row: cython.p_int = surface.row
-    # Divides sub-pixel numbers, which are below 2**24, by n.
-    one: cython.ulonglong = 1
-    inverse: cython.ulonglong = (one << 32) // n + 1
+    if surface.n != n:
+        # Division by n as a multiplication, exact for sub-pixel numbers, which are below 2**24.
+        one: cython.longlong = 1
+        surface.n = n
+        surface.n_inverse = (one << 32) // n + 1
+    inverse: cython.longlong = surface.n_inverse
     for k in range(count):
         a = max(spans[2 * k], low)
         b = min(spans[2 * k + 1], high)
@@ -123,4 +126,4 @@ def paint(
         row[x] -= n - part
         row[x + 1] -= part
     if first < last:
-        surface.blend(y, first // n, (last + n - 1) // n, n * n)
+        surface.blend(y, (first * inverse) >> 32, ((last + n - 1) * inverse) >> 32, n * n)

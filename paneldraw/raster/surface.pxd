@@ -10,6 +10,8 @@ cdef class Surface:
     cdef unsigned char[256] ink
     cdef int level, op
     cdef int *row
+    cdef int full, n
+    cdef long long inverse, n_inverse
 
     cdef object reserve(self)
     cdef object make_room(self, Py_ssize_t size)

@@ -53,6 +53,8 @@ class Surface:
         self.bottom = height
         self.level = -1
         self.op = -1
+        self.full = 0
+        self.n = 0
         self.reserve()
 
     @cython.cfunc
@@ -152,34 +154,39 @@ class Surface:
         `row` holds differences: pixel x is covered ``row[x1] + ... + row[x]`` times of `full`. It is zero afterwards.
         """
         x: cython.Py_ssize_t
-        covered: cython.int = 0
-        share: cython.int
-        old: cython.int
+        covered: cython.longlong = 0
+        share: cython.longlong
+        old: cython.longlong
         row: cython.p_int = self.row
         op: cython.int = self.op
-        level: cython.int = self.level if op != 4 else 0
+        level: cython.longlong = self.level if op != 4 else 0
         top: cython.int = self.max_level
-        # Rounds to nearest: (2 * value + full) / (2 * full), by the reciprocal; exact while value <= 255 * 256.
-        one: cython.ulonglong = 1
-        inverse: cython.ulonglong = (one << 32) // (2 * full) + 1
-        base: cython.Py_ssize_t = y * self.stride
         pixels: cython.p_uchar = self.pixels
-        for x in range(x1, x2):
-            covered += row[x]
-            row[x] = 0
-            if covered == 0:
-                continue
-            old = pixels[base + x]
-            if covered == full:
-                pixels[base + x] = self.ink[old]
-            elif top == 1:
+        base: cython.Py_ssize_t = y * self.stride
+        if self.full != full:
+            # Division by 2 * full as a multiplication, exact for what is below 2**18.
+            one: cython.longlong = 1
+            self.full = full
+            self.inverse = (one << 32) // (2 * full) + 1
+        inverse: cython.longlong = self.inverse
+        if top == 1:
+            for x in range(x1, x2):
+                covered += row[x]
+                row[x] = 0
                 if 2 * covered >= full:
-                    pixels[base + x] = self.ink[old]
-            elif op == 0 or op == 4:
-                share = 2 * (old * (full - covered) + level * covered) + full
-                pixels[base + x] = cython.cast(cython.int, (share * inverse) >> 32)
-            else:
-                share = cython.cast(cython.int, ((2 * level * covered + full) * inverse) >> 32)
+                    pixels[base + x] = self.ink[pixels[base + x]]
+        elif op == 0 or op == 4:
+            for x in range(x1, x2):
+                covered += row[x]
+                row[x] = 0
+                old = pixels[base + x]
+                pixels[base + x] = ((2 * (old * full + (level - old) * covered) + full) * inverse) >> 32
+        else:
+            for x in range(x1, x2):
+                covered += row[x]
+                row[x] = 0
+                old = pixels[base + x]
+                share = ((2 * level * covered + full) * inverse) >> 32
                 if op == 1:
                     pixels[base + x] = old ^ share
                 elif op == 2:
