@@ -59,21 +59,28 @@ def bresenham_part(
     top: cython.longlong = surface.top
     bottom: cython.longlong = surface.bottom
     if abs(dx) < abs(dy):
-        x1, y1, x2, y2, dx, dy = y1, x1, y2, x2, dy, dx
+        x1, y1, dx, dy = y1, x1, dy, dx
         along, across = across, along
         left, right, top, bottom = top, bottom, left, right
-    if dx < 0:
-        x1, y1, dx, dy = x2, y2, -dx, -dy
-        start, stop = dx + 1 - stop, dx + 1 - start
-    first: cython.longlong = max(0, start, left - x1)
-    last: cython.longlong = min(dx, stop - 1, right - 1 - x1)
+    # A branch on these signs would be guessed wrong half of the time: -1 where one is negative, 0 elsewhere.
+    negative: cython.longlong = dx >> 63
+    x1 += dx & negative
+    y1 += dy & negative
+    dx = (dx ^ negative) - negative
+    dy = (dy ^ negative) - negative
+    first: cython.longlong = max(0, left - x1)
+    last: cython.longlong = min(dx, right - 1 - x1)
+    if start > 0 or stop <= dx:
+        first = max(first, dx + 1 - stop if negative else start)
+        last = min(last, dx - start if negative else stop - 1)
     i: cython.Py_ssize_t = x1 * along + y1 * across
     # How many rows the line may have moved, at least and at most, to be in the window.
     low: cython.longlong = top - y1
     high: cython.longlong = bottom - 1 - y1
-    if dy < 0:
-        dy = -dy
-        across = -across
+    negative = dy >> 63
+    dy = (dy ^ negative) - negative
+    across = (across ^ negative) - negative
+    if negative:
         low, high = -high, -low
     if low > dy or high < 0:
         return
@@ -100,18 +107,24 @@ def bresenham_part(
     i += first * along + moved * across
     pixels: cython.p_uchar = surface.pixels
     ink: cython.p_uchar = surface.ink
+    level: cython.uchar = ink[0]
+    # Painting over what is there needs no look at it.
+    blind: cython.bint = surface.op == 0 or surface.op == 4
     below: cython.longlong
     count: cython.longlong = last - first + 1
     while count > 1:
-        pixels[i] = ink[pixels[i]]
-        pixels[j] = ink[pixels[j]]
-        # -1 where p is negative and 0 elsewhere: a branch would be guessed wrong half of the time.
+        if blind:
+            pixels[i] = level
+            pixels[j] = level
+        else:
+            pixels[i] = ink[pixels[i]]
+            pixels[j] = ink[pixels[j]]
         below = p >> 63
-        p += move + (below & (stay - move))
-        i += diagonal + (below & (along - diagonal))
+        p = p + move + (below & (stay - move))
+        i = i + diagonal + (below & (along - diagonal))
         below = q >> 63
-        q += move + (below & (stay - move))
-        j -= diagonal + (below & (along - diagonal))
+        q = q + move + (below & (stay - move))
+        j = j - diagonal - (below & (along - diagonal))
         count -= 2
     if count:
         pixels[i] = ink[pixels[i]]
