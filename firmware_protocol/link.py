@@ -14,6 +14,7 @@ from typing import Any, NoReturn
 from firmware_protocol.errors import (
     DeviceResetError,
     LinkError,
+    LinkLostError,
     LinkTimeoutError,
     NoDeviceError,
     PanelFaultError,
@@ -46,8 +47,8 @@ PATIENCE = 0.25
 ATTEMPTS = 7
 #: How often it is asked at a faster rate before the first rate is tried: it may have restarted.
 HOPES = 2
-#: How often one frame is sent in vain before the line is given up.
-RETRIES = 25
+#: Seconds without an acknowledged frame, in spite of answers, after which the line is given up.
+STALLED = 15.0
 #: Most frames under way; half the sequence numbers must stay unambiguous.
 MAX_IN_FLIGHT = 100
 #: Payload that a bad line shrinks frames to: at 3 errors in 1000 bytes five of six still arrive.
@@ -84,7 +85,7 @@ class HostLink:
         closes it in `close`.
     baudrate : int, optional
         Bits a second after the handshake, one of those that the device offers. Default: the rate the device likes
-        best, or 115 200 if that does not work here.
+        best. Where it does not work, the link goes on at 115 200; `HostLink.baudrate` says so.
     timeout : float, default 3.0
         Seconds to wait for a device to answer the handshake; boards that reset when a port is opened need two.
     clock : callable, default `time.monotonic`
@@ -126,6 +127,7 @@ class HostLink:
         self._work: deque[tuple[int, bytes]] = deque()
         self._sizes: deque[int] = deque()
         self._token = 0
+        self._closed = False
         self._forget()
         self.connect()
 
@@ -227,13 +229,17 @@ class HostLink:
             with suppress(LinkError):
                 self._line.send(encode(Baud(self._base, BASE_BAUDRATE)))
         self._forget()
+        self._closed = True
         self._line.close()
 
     # -- sessions
 
     def _begin(self) -> None:
+        if self._closed:
+            raise LinkLostError(f"the link on {self._line.name} was closed; open another")
         if self._line.lost or not self._in_session:
             self.connect()
+        self._progress = self.clock()
 
     def _forget(self) -> None:
         self._in_session = False
@@ -241,8 +247,9 @@ class HostLink:
         self._sizes.clear()
         self._base = 0
         self._polling: int | None = None
-        self._failures = self._retries = 0
+        self._failures = 0
         self._deadline = 0.0
+        self._progress = self.clock()
         self._settling = False
         self._fault = Fault.NONE
 
@@ -359,8 +366,7 @@ class HostLink:
         sizes = self._sizes
         if self._polling is not None or len(sizes) == len(self._work):
             return
-        if not sizes:
-            self._expect()
+        idle = not sizes
         batch = []
         under_way = sum(sizes)
         for kind, payload in islice(self._work, len(sizes), None):
@@ -370,6 +376,8 @@ class HostLink:
                 break
             sizes.append(len(frame))
             batch.append(frame)
+        if idle:
+            self._expect()
         if batch:
             self.stats.frames += len(batch)
             self._line.send(b"".join(batch))
@@ -412,7 +420,8 @@ class HostLink:
             self._sizes.popleft()
             self._work.popleft()
         self._base = self._base + count & 0xFF
-        self._failures = self._retries = 0
+        self._failures = 0
+        self._progress = self.clock()
         self._speed_up(count)
         self._expect()
 
@@ -423,9 +432,6 @@ class HostLink:
             self._fail(LinkTimeoutError, f"the board on {self._line.name} lost count of what it was sent; try again")
         if count:
             self._done(count)
-        self._retries += 1
-        if self._retries > RETRIES:
-            self._fail(LinkTimeoutError, f"the line to {self._line.name} is too noisy: lower the baud rate")
         self.stats.resent += len(self._sizes)
         self._sizes.clear()
         self._cut()
@@ -449,10 +455,12 @@ class HostLink:
         self._window = min(self.device.window, self._window + 8 * count)
 
     def _expect(self) -> None:
-        on_the_way = 20 * self.device.window / self.baudrate
+        on_the_way = 20 * sum(self._sizes) / self.baudrate
         self._deadline = self.clock() + PATIENCE * min(4, 2**self._failures) + on_the_way
 
     def _poll(self) -> None:
+        if self.clock() - self._progress > STALLED:
+            self._fail(LinkTimeoutError, f"the line to {self._line.name} is too noisy: lower the baud rate")
         self._token = self._token + 1 & 0xFF
         self._polling = self._token
         self._expect()
