@@ -1,5 +1,6 @@
 /* The state machine: frames in, work in order, replies out. */
 #include "bus.h"
+#include "out.h"
 
 #define BASE_RATE 115200UL
 #define PROBATION_MS 300
@@ -39,13 +40,6 @@ static struct {
 } in;
 
 static struct {
-    uint8_t ring[PD_TX_SIZE];
-    volatile uint8_t head, tail;
-    uint8_t at, code, block; /* the frame that is being written */
-    uint16_t crc;
-} out;
-
-static struct {
     struct frame running, ready;
     uint8_t owed, expected, done, fault, version, token, reason, cause;
     bool armed, present, doubtful;
@@ -59,6 +53,8 @@ static const uint32_t rates[] PD_FLASH = PD_RATES;
 static const char controller[] PD_FLASH = PD_CONTROLLER;
 static const char firmware[] PD_FLASH = PD_FIRMWARE;
 #define RATES (sizeof rates / sizeof rates[0])
+/* The longest reply is written whole before it goes out. */
+typedef char hello_reply_fits[29 + 4 * RATES + sizeof controller + sizeof firmware <= PD_TX_SIZE ? 1 : -1];
 
 static inline uint8_t at(uint16_t position)
 {
@@ -67,91 +63,40 @@ static inline uint8_t at(uint16_t position)
 
 /* -- replies */
 
-static void put_raw(uint8_t byte)
-{
-    out.crc = pd_crc(out.crc, byte);
-    if (byte) {
-        out.ring[out.at & (PD_TX_SIZE - 1)] = byte;
-        out.block++;
-    } else {
-        out.ring[out.code & (PD_TX_SIZE - 1)] = out.block;
-        out.code = out.at;
-        out.block = 1;
-    }
-    out.at++;
-}
-
-static void put(uint16_t value, uint8_t bytes)
-{
-    for (; bytes; bytes--, value >>= 8)
-        put_raw((uint8_t)value);
-}
-
 static void put_name(const char *name, uint8_t size)
 {
-    put_raw(size - 1);
+    out_byte(size - 1);
     for (uint8_t i = 0; i < size - 1; i++)
-        put_raw(PD_READ_FLASH(name + i));
-}
-
-static void begin(uint8_t kind, uint8_t seq)
-{
-    out.code = out.head;
-    out.at = out.code + 1;
-    out.block = 1;
-    out.crc = 0xFFFF;
-    put_raw(kind);
-    put_raw(seq);
-}
-
-static void finish(void)
-{
-    uint16_t crc = out.crc;
-    put_raw(crc >> 8);
-    put_raw((uint8_t)crc);
-    out.ring[out.code & (PD_TX_SIZE - 1)] = out.block;
-    out.ring[out.at & (PD_TX_SIZE - 1)] = 0;
-    PD_GUARDED(out.head = out.at + 1); /* not before the bytes are there */
-    pd_port_transmit();
-}
-
-bool pd_transmit(uint8_t *byte)
-{
-    uint8_t tail = out.tail;
-    if (tail == out.head)
-        return false;
-    *byte = out.ring[tail & (PD_TX_SIZE - 1)];
-    out.tail = tail + 1;
-    return true;
+        out_byte(PD_READ_FLASH(name + i));
 }
 
 static void say_hello(void)
 {
-    begin(HELLO_REPLY, 0);
+    out_begin(HELLO_REPLY, 0);
     for (uint8_t i = 0; i < 4; i++)
-        put_raw(link.nonce[i]);
-    put_raw(link.version);
-    put_raw(PD_OLDEST_VERSION);
-    put_raw(PD_NEWEST_VERSION);
-    put(link.boot, 2);
-    put_raw(link.cause);
-    put_raw(PD_BUS);
-    put_raw(PD_ADDRESS);
-    put_raw((PD_BUS == PD_BUS_IS_I2C) | link.present << 1 | PD_RESET_LINE << 2);
-    put_raw(1);
-    put(PD_MAX_PAYLOAD, 2);
-    put(PD_WINDOW, 2);
-    put(PD_WIDTH, 2);
-    put(PD_HEIGHT, 2);
-    put_raw(RATES);
+        out_byte(link.nonce[i]);
+    out_byte(link.version);
+    out_byte(PD_OLDEST_VERSION);
+    out_byte(PD_NEWEST_VERSION);
+    out_put(link.boot, 2);
+    out_byte(link.cause);
+    out_byte(PD_BUS);
+    out_byte(PD_ADDRESS);
+    out_byte((PD_BUS == PD_BUS_IS_I2C) | link.present << 1 | PD_RESET_LINE << 2);
+    out_byte(1);
+    out_put(PD_MAX_PAYLOAD, 2);
+    out_put(PD_WINDOW, 2);
+    out_put(PD_WIDTH, 2);
+    out_put(PD_HEIGHT, 2);
+    out_byte(RATES);
     for (uint8_t i = 0; i < RATES; i++) {
         uint32_t rate = PD_READ_FLASH_LONG(rates + i);
-        put((uint16_t)rate, 2);
-        put((uint16_t)(rate >> 16), 2);
+        out_put((uint16_t)rate, 2);
+        out_put((uint16_t)(rate >> 16), 2);
     }
     put_name(controller, sizeof controller);
     put_name(firmware, sizeof firmware);
-    finish();
+    out_finish();
 }
 
 static uint16_t counter(volatile uint16_t *value)
@@ -163,26 +108,26 @@ static uint16_t counter(volatile uint16_t *value)
 
 static void say_status(void)
 {
-    begin(STATUS, link.token);
-    put_raw(link.expected);
-    put_raw(link.fault);
-    put(link.boot, 2);
-    put(link.damaged, 2);
-    put(counter(&pd_rx.overflows), 2);
-    put(counter(&pd_rx.line_errors), 2);
-    finish();
+    out_begin(STATUS, link.token);
+    out_byte(link.expected);
+    out_byte(link.fault);
+    out_put(link.boot, 2);
+    out_put(link.damaged, 2);
+    out_put(counter(&pd_rx.overflows), 2);
+    out_put(counter(&pd_rx.line_errors), 2);
+    out_finish();
 }
 
 static void say_short(uint8_t kind, uint8_t seq, uint8_t value)
 {
-    begin(kind, seq);
-    put_raw(value);
-    finish();
+    out_begin(kind, seq);
+    out_byte(value);
+    out_finish();
 }
 
 static void reply(void)
 {
-    uint8_t room = PD_TX_SIZE - (uint8_t)(out.head - out.tail);
+    uint8_t room = out_room();
     uint8_t owed = link.owed;
     if (!owed || room < (owed & OWE_HELLO ? PD_TX_SIZE : 24))
         return;
@@ -199,10 +144,10 @@ static void reply(void)
         say_hello();
         owed &= ~OWE_HELLO;
     } else {
-        begin(BOOT, 0);
-        put(link.boot, 2);
-        put_raw(link.cause);
-        finish();
+        out_begin(BOOT, 0);
+        out_put(link.boot, 2);
+        out_byte(link.cause);
+        out_finish();
         owed = 0;
     }
     link.owed = owed;
@@ -509,7 +454,7 @@ void pd_start(uint16_t boot, uint8_t cause)
     link.owed = OWE_BOOT;
     pd_bus.state = PD_BUS_IDLE;
     pd_rx.overflows = pd_rx.line_errors = 0;
-    out.head = out.tail = 0;
+    out_clear();
     pd_rx.head = in.read = 0;
     begin_frame();
 }
