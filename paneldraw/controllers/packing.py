@@ -23,14 +23,40 @@ def pack_pages(
         Where the pages go, from the top.
     """
     width: cython.Py_ssize_t = packed.shape[1]
-    page: cython.Py_ssize_t
-    row: cython.Py_ssize_t
+    y: cython.Py_ssize_t
+    for y in range(8 * packed.shape[0]):
+        if cython.compiled:
+            _pack_row(
+                cython.cast(cython.p_uchar, cython.address(levels[y, 0])),
+                levels.strides[1],
+                width,
+                threshold,
+                y & 7,
+                cython.address(packed[y >> 3, 0]),
+            )
+        else:
+            _pack_row(levels[y], 1, width, threshold, y & 7, packed[y >> 3])
+
+
+@cython.cfunc
+@cython.exceptval(check=False)
+def _pack_row(
+    source: cython.p_uchar,
+    step: cython.Py_ssize_t,
+    width: cython.Py_ssize_t,
+    threshold: cython.uchar,
+    row: cython.int,
+    target: cython.p_uchar,
+) -> cython.void:
+    """Put one row into its page; row 0 clears the others."""
+    bit: cython.uchar = 1 << row
     x: cython.Py_ssize_t
-    bit: cython.uchar
-    for page in range(packed.shape[0]):
+    if row == 0:
         for x in range(width):
-            packed[page, x] = 0
-        for row in range(8):
-            bit = 1 << row
-            for x in range(width):
-                packed[page, x] |= bit if levels[8 * page + row, x] > threshold else 0
+            target[x] = 0
+    if step == 1:  # the same loop, apart: compilers make vectors of it
+        for x in range(width):
+            target[x] |= bit if source[x] > threshold else 0
+    else:
+        for x in range(width):
+            target[x] |= bit if source[x * step] > threshold else 0

@@ -34,7 +34,7 @@ class Plan:
     buffer : (capacity,) uint8 array
     address : int
         Where the buffer stands in memory.
-    starts, stops : (limit,) intp arrays
+    starts, stops : (limit,) memoryviews of intp
     count : int
         How many messages there are.
     cost : int
@@ -48,8 +48,9 @@ class Plan:
     def __init__(self, capacity: int, limit: int) -> None:
         self.buffer: npt.NDArray[np.uint8] = np.zeros(capacity, np.uint8)
         self.address: int = self.buffer.ctypes.data
-        self.starts: npt.NDArray[np.intp] = np.zeros(limit, np.intp)
-        self.stops: npt.NDArray[np.intp] = np.zeros(limit, np.intp)
+        # Reading one number from a memoryview is twice as fast as from an array.
+        self.starts = np.zeros(limit, np.intp).data
+        self.stops = np.zeros(limit, np.intp).data
         self.count = 0
         self.cost = 0
         self.changed = 0
@@ -60,7 +61,7 @@ class Plan:
     def __iter__(self) -> Iterator[tuple[int, memoryview]]:
         """Yield each message's kind and payload."""
         view = self.buffer.data
-        for start, stop in zip(self.starts[: self.count].tolist(), self.stops[: self.count].tolist(), strict=True):
+        for start, stop in zip(self.starts[: self.count], self.stops[: self.count], strict=True):
             yield view[start], view[start + 1 : stop]
 
 

@@ -41,7 +41,8 @@ class I2CTransport:
     address : int, optional
         The panel's 7-bit address, 0x08 to 0x77. Default: 0x3C.
     max_message : int, optional
-        Longest message in bytes that the bus adapter takes, 2 to 8192. Default: 8192, the kernel's own limit.
+        Longest message in bytes that the bus adapter takes, control byte included, 2 to 8192. Default: 8192, the
+        kernel's own limit.
 
     Raises
     ------
@@ -56,8 +57,6 @@ class I2CTransport:
     3
     """
 
-    cost = Cost(command=_FRAMING, data=_FRAMING, chained=_FRAMING)
-
     def __init__(self, bus: Any = 1, address: int = 0x3C, *, max_message: int = BYTES_A_MESSAGE) -> None:
         if isinstance(address, bool) or not isinstance(address, int):
             raise TypeError(f"address must be an int, not {address!r}")
@@ -65,6 +64,7 @@ class I2CTransport:
             raise ValueError(f"address must be 0x08 to 0x77, usually 0x3C or 0x3D, not {address:#x}")
         if not 2 <= max_message <= BYTES_A_MESSAGE:
             raise ValueError(f"max_message must be 2 to {BYTES_A_MESSAGE}, not {max_message}")
+        self.cost = Cost(_FRAMING, _FRAMING, _FRAMING if max_message == BYTES_A_MESSAGE else None)
         self.address = address
         self.max_message = max_message
         self._smbus2 = _smbus2()
@@ -86,7 +86,7 @@ class I2CTransport:
 
     def batch(self, plan: Plan) -> int:
         """Send a plan in as few calls as the limits allow; return the bytes on the wire."""
-        if plan.buffer.size > self.max_message and np.any((plan.stops - plan.starts)[: plan.count] > self.max_message):
+        if plan.buffer.size > self.max_message:
             return sum(self._write(kind, payload) for kind, payload in plan)
         messages = self._messages.of(plan)
         for first in range(0, plan.count, MESSAGES_A_CALL):
@@ -179,7 +179,7 @@ class _Messages:
         fields: npt.NDArray[Any] = np.zeros(count, np.dtype(layout))  # type: ignore[call-overload]
         fields["addr"] = self._address
         self._keep = fields
-        self._lengths, self._addresses = fields["len"], fields["buf"]
+        self._lengths, self._addresses = fields["len"].data, fields["buf"].data
         self._pool = [message.from_buffer(fields, index * fields.itemsize) for index in range(count)]
 
     def of(self, plan: Plan) -> list[Any]:
@@ -187,9 +187,12 @@ class _Messages:
         count = plan.count
         if count > len(self._pool):
             self._grow(count)
-        starts = plan.starts[:count]
-        np.subtract(plan.stops[:count], starts, out=self._lengths[:count], casting="unsafe")
-        np.add(starts, plan.address, out=self._addresses[:count], casting="unsafe")
+        buffer, starts, stops = plan.address, plan.starts, plan.stops
+        lengths, addresses = self._lengths, self._addresses
+        for index in range(count):
+            start = starts[index]
+            lengths[index] = stops[index] - start
+            addresses[index] = buffer + start
         return self._pool[:count]
 
 

@@ -179,11 +179,19 @@ class Writer:
             return
         self._message(_DATA)
         self.total += count
-        for _ in range(count):
+        run: cython.int
+        i: cython.int
+        while count > 0:
+            run = 1
+            if self.mode != _VERTICAL:
+                run = min(count, (self.ram_width if self.mode == _PAGE else self.window_right) - self.column)
             if not self._dry:
-                self._out[self._end] = self.new[self.page - self.top, self.column - self.left]
-                self._end += 1
+                for i in range(run):
+                    self._out[self._end + i] = self.new[self.page - self.top, self.column - self.left + i]
+                self._end += run
+            self.column += run - 1
             self._step()
+            count -= run
 
     @cython.cfunc
     @cython.inline

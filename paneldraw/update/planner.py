@@ -30,6 +30,7 @@ from paneldraw.update.messages import PAGE
 from paneldraw.update.paths import EXACT, IMPROVED
 
 if cython.compiled:
+    from cython.cimports.libc.string import memcmp
     from cython.cimports.paneldraw.update.messages import Writer
     from cython.cimports.paneldraw.update.paths import shortest_path
     from cython.cimports.paneldraw.update.windows import Windows
@@ -144,32 +145,56 @@ class Planner:
     def _find_pieces(self) -> cython.int:
         """Find the pieces, apart where the pointer stands; return how many bytes changed."""
         w: Writer = self._writer
-        page: cython.Py_ssize_t
-        column: cython.Py_ssize_t
-        pointer: cython.Py_ssize_t
+        new: cython.uchar[:, ::1] = w.new
+        old: cython.uchar[:, ::1] = w.old
+        width: cython.int = w.width
+        known: cython.bint = w.known
+        page: cython.int
+        column: cython.int
+        pointer: cython.int
+        start: cython.int
         changed: cython.int = 0
-        count: cython.int = 0
-        inside: cython.bint
-        for page in range(w.new.shape[0]):
-            inside = False
+        self._count = 0
+        for page in range(new.shape[0]):
+            if known and self._same(page):
+                continue
             pointer = w.column - w.left if page + w.top == w.page else -1
-            for column in range(w.new.shape[1]):
-                if w.known and w.new[page, column] == w.old[page, column]:
-                    inside = False
+            start = -1
+            for column in range(width):
+                if known and new[page, column] == old[page, column]:
+                    if start >= 0:
+                        self._add_piece(page, start, column)
+                    start = -1
                     continue
                 changed += 1
-                if not inside or column == pointer:
-                    self._pieces[count, 0] = page + w.top
-                    self._pieces[count, 1] = column + w.left
-                    count += 1
-                    inside = True
-                self._pieces[count - 1, 2] = column + w.left + 1
-        self._count = count
+                if start < 0:
+                    start = column
+                elif column == pointer:
+                    self._add_piece(page, start, column)
+                    start = column
+            if start >= 0:
+                self._add_piece(page, start, width)
         if self._count > _EXACT:
             self._merge(1)
         if self._count > _IMPROVED:
             self._merge(self._jumps[1])
         return changed
+
+    @cython.cfunc
+    def _add_piece(self, page: cython.int, start: cython.int, stop: cython.int) -> cython.void:
+        w: Writer = self._writer
+        self._pieces[self._count, 0] = page + w.top
+        self._pieces[self._count, 1] = start + w.left
+        self._pieces[self._count, 2] = stop + w.left
+        self._count += 1
+
+    @cython.cfunc
+    def _same(self, page: cython.Py_ssize_t) -> cython.bint:
+        """Whether nothing changed in a page."""
+        w: Writer = self._writer
+        if cython.compiled:
+            return memcmp(cython.address(w.new[page, 0]), cython.address(w.old[page, 0]), w.new.shape[1]) == 0
+        return bytes(w.new[page]) == bytes(w.old[page])
 
     @cython.cfunc
     def _merge(self, gap: cython.int) -> cython.void:
