@@ -1,0 +1,185 @@
+"""A stranger's first line works, with no C compiler too; what is built holds what it should and nothing else."""
+
+from __future__ import annotations
+
+import email
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import zipfile
+from importlib.metadata import version
+from pathlib import Path
+
+import make_pictures
+import numpy as np
+import pytest
+
+import paneldraw
+
+PROJECT = Path(__file__).parent.parent
+INFO = f"paneldraw-{version('paneldraw')}.dist-info"
+
+#: Pictures of every kind of call, as the bytes of their levels.
+DRAW = """
+import hashlib, json
+from paneldraw import Framebuffer, Supersample, _compiled
+fb = Framebuffer(96, 48, depth=4)
+fb.line(-7, 3, 120, 41, 9)
+fb.line(4.25, 40, 90.5, 2.75, width=3.5, antialias=Supersample(4), op="max")
+fb.circle(50, 20, 15, 5, fill=True, op="xor")
+fb.rect(1, 1, 94, 46, 3)
+fb.text("Packed", 40, 30, op="add")
+print(json.dumps([_compiled.COMPILED, fb.pixels.tolist()]))
+"""
+
+
+@pytest.fixture(scope="module")
+def without_compiler(tmp_path_factory):
+    """A fresh copy of the project in which the README's first line was run where no C compiler works.
+
+    Without compiling, that takes a quarter of a minute, and serves all tests here.
+    """
+    folder = tmp_path_factory.mktemp("clone")
+    names = subprocess.run(
+        ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
+        cwd=PROJECT,
+        capture_output=True,
+        check=True,
+    ).stdout
+    for name in filter(None, names.decode().split("\0")):
+        if (PROJECT / name).is_file():
+            (folder / name).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copyfile(PROJECT / name, folder / name)
+    environment = {name: value for name, value in os.environ.items() if not name.startswith(("PYTHON", "PANELDRAW"))}
+    environment["CC"] = "/bin/false"
+
+    def run(command):
+        return subprocess.run(
+            ["bash", "-c", command],
+            cwd=folder,
+            env=environment,
+            stdin=subprocess.DEVNULL,
+            capture_output=True,
+            text=True,
+        )
+
+    run.folder = folder
+    run.first = run(make_pictures.blocks("sh", "Set-up")[0])
+    assert run.first.returncode == 0, run.first.stdout + run.first.stderr
+    return run
+
+
+@pytest.fixture(scope="module")
+def wheel(without_compiler):
+    """The wheel that is built there, beside what compiling left behind."""
+    folder = without_compiler.folder
+    assert list(folder.glob("paneldraw/**/*.c"))
+    done = without_compiler(".venv/bin/pip wheel --no-deps --wheel-dir dist .")
+    assert done.returncode == 0, done.stdout + done.stderr
+    with zipfile.ZipFile(next((folder / "dist").glob("paneldraw-*.whl"))) as file:
+        yield file
+
+
+def test_the_first_line_runs_the_demo(without_compiler):
+    picture = re.search(r"┌─+┐\n(?:│.{128}│\n)+└─+┘\n", without_compiler.first.stdout)
+    assert picture, without_compiler.first.stdout[-3000:]
+    assert picture.group().count("█") > 20
+
+
+def test_without_a_compiler_it_runs_interpreted_and_says_so(without_compiler):
+    assert not list(without_compiler.folder.glob("paneldraw/**/*.so"))
+    info = without_compiler(".venv/bin/paneldraw info")
+    assert info.returncode == 0, info.stderr
+    assert re.search(r"^drawing: +interpreted", info.stdout, re.M)
+
+
+def test_compiled_and_interpreted_installs_draw_the_same(without_compiler):
+    theirs, picture = json.loads(without_compiler(f".venv/bin/python -c '{DRAW}'").stdout)
+    ours, expected = json.loads(subprocess.run([sys.executable, "-c", DRAW], capture_output=True, check=True).stdout)
+    assert (theirs, ours) == (False, True)
+    assert np.any(expected)
+    assert picture == expected
+
+
+def test_the_wheel_holds_the_packages_and_nothing_else(wheel):
+    names = wheel.namelist()
+    assert {name.partition("/")[0] for name in names} == {"paneldraw", "firmware_protocol", INFO}
+    assert {Path(name).suffix for name in names if ".dist-info/" not in name} <= {".py", ".pxd", ".typed", ".md"}
+    expected = {
+        str(file.relative_to(PROJECT))
+        for package in ("paneldraw", "firmware_protocol")
+        for pattern in ("**/*.py", "**/*.pxd", "py.typed")
+        for file in (PROJECT / package).glob(pattern)
+        if "firmware_protocol/firmware/" not in file.as_posix()
+    }
+    assert expected <= set(names)
+    assert {"paneldraw/py.typed", "firmware_protocol/py.typed"} <= expected
+    assert not [name for name in names if re.search(r"(^|/)(tests?|build|conftest)(/|\.|$)", name)]
+
+
+def test_the_wheel_is_mit_alone(wheel):
+    for name in wheel.namelist():
+        assert b"GNU General Public" not in wheel.read(name), name
+    assert wheel.read(f"{INFO}/licenses/LICENSE").startswith(b"MIT License")
+
+
+def test_the_metadata(wheel):
+    metadata = email.message_from_bytes(wheel.read(f"{INFO}/METADATA"))
+    assert metadata["License-Expression"] == "MIT"
+    assert metadata["Requires-Python"] == ">=3.10"
+    assert {"test", "spi", "web", "bench", "dev"} <= set(metadata.get_all("Provides-Extra"))
+    needed = {re.match(r"[\w-]+", line).group() for line in metadata.get_all("Requires-Dist") if "extra ==" not in line}
+    assert {"numpy", "Pillow", "smbus2", "pyserial"} <= needed <= {"numpy", "Pillow", "smbus2", "pyserial", "cobs"}
+    scripts = wheel.read(f"{INFO}/entry_points.txt").decode()
+    assert "paneldraw = paneldraw.cli:main" in scripts
+    assert metadata["Version"] in (PROJECT / "CHANGELOG.md").read_text(encoding="utf-8")
+
+
+USER = """
+from paneldraw import Framebuffer, Panel, Supersample, open_panel
+
+fb = Framebuffer(8, 8, antialias=Supersample(4))
+reveal_type(fb.pixels)
+reveal_type(fb.depth)
+reveal_type(fb.antialias)
+reveal_type(open_panel)
+fb.line(0, 0.5, 7, 7, 1, width=2)
+fb.line("0", 0, 7, 7)
+fb.line(0, 0, 7, 7, thickness=2)
+fb.lien(0, 0, 7, 7)
+"""
+
+
+def test_a_users_type_checker_knows_the_types(wheel, tmp_path):
+    wheel.extractall(tmp_path / "installed")
+    (tmp_path / "user.py").write_text(USER, encoding="utf-8")
+    command = [sys.executable, "-m", "mypy", "--strict", "--config-file=", "--follow-imports=silent", "user.py"]
+    environment = os.environ | {"MYPYPATH": str(tmp_path / "installed")}
+    done = subprocess.run(command, cwd=tmp_path, env=environment, capture_output=True, text=True)
+    said = dict(re.findall(r"^user\.py:(\d+): (error: .*|note: Revealed .*)$", done.stdout, re.M))
+    assert said.keys() == {"5", "6", "7", "8", "10", "11", "12"}, done.stdout + done.stderr
+    assert "ndarray" in said["5"]
+    assert '"int"' in said["6"]
+    assert "Supersample | None" in said["7"]
+    assert "-> paneldraw.panel.Panel" in said["8"]
+    assert "[arg-type]" in said["10"]
+    assert "[call-arg]" in said["11"]
+    assert "[attr-defined]" in said["12"]
+
+
+def test_import_is_light_and_touches_nothing():
+    look = "import json, sys, threading, paneldraw; print(json.dumps([threading.active_count(), sorted(sys.modules)]))"
+    threads, modules = json.loads(subprocess.run([sys.executable, "-c", look], capture_output=True, check=True).stdout)
+    assert threads == 1
+    assert not {"PIL", "smbus2", "serial", "cobs", "spidev", "gpiod", "aiohttp", "asyncio"} & set(modules)
+
+
+def test_public_names():
+    assert set(paneldraw.__all__) <= set(dir(paneldraw))
+    for name in paneldraw.__all__:
+        assert getattr(paneldraw, name).__name__ == name
+    with pytest.raises(AttributeError, match="no attribute 'panels'"):
+        paneldraw.panels  # noqa: B018
