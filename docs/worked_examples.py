@@ -53,7 +53,9 @@ def excerpt(file: str, name: str, shown: str) -> str:
         start = stripped.index(wanted[0])
         end = stripped.index(wanted[-1], start)
     except ValueError:
-        raise ValueError(f"{name} in {file} has no lines from {wanted[0]!r} to {wanted[-1]!r}") from None
+        raise ValueError(
+            f"{name} in {file} has no lines from {wanted[0]!r} to {wanted[-1]!r}; name others in {PAGE.name}"
+        ) from None
     return textwrap.dedent("\n".join(lines[start : end + 1])) + "\n"
 
 
@@ -96,6 +98,8 @@ def watch(
         run()
     finally:
         sys.settrace(before)
+    if not seen:
+        raise ValueError(f"{function.__name__} never comes to the line {line!r}")
     return seen
 
 
@@ -164,7 +168,7 @@ def bresenham_clipped() -> str:
 
 def bresenham_both_ends() -> str:
     lines = plain()["lines"]
-    steps = watch(lines.bresenham_part, "pixels[i] = ink[pixels[i]]", lambda: lines.bresenham(_line_surface(), *LINE))
+    steps = watch(lines.bresenham_part, "below = p >> 63", lambda: lines.bresenham(_line_surface(), *LINE))
     return table(
         "turn|from the start|p|from the end|q",
         [(k, _pixel(at["i"]), at["p"], _pixel(at["j"]), at["q"]) for k, at in enumerate(steps)],
