@@ -107,7 +107,7 @@ def table(heads: str, rows: Iterable[Iterable[object]]) -> str:
     """A table with these heads, which are separated by bars, and rows."""
     lines = ["| " + " | ".join(map(str, row)) + " |" for row in (heads.split("|"), *rows)]
     lines.insert(1, "|---" * (heads.count("|") + 1) + "|")
-    return "\n" + re.sub(r"-(?=\d)", "\N{MINUS SIGN}", "\n".join(lines)) + "\n"
+    return "\n" + re.sub(r"-(?=[\d½ ])", "\N{MINUS SIGN}", "\n".join(lines)) + "\n"
 
 
 def panel(fb: Any) -> str:

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import importlib
 import re
-import sys
 from pathlib import Path
 
+import gallery
 import numpy as np
 import pytest
+import worked_examples as examples
 from PIL import Image
 
 from paneldraw import Framebuffer
@@ -19,24 +19,12 @@ DOCS = Path(__file__).parent.parent / "docs"
 NOT_DRAWING = {"antialias", "depth", "height", "max_level", "pixels", "save", "to_image", "width"}
 
 
-def module(name):
-    """A script of the pages, loaded anew: it uses the package that is in place."""
-    sys.path.insert(0, str(DOCS))
-    try:
-        sys.modules.pop(name, None)
-        return importlib.import_module(name)
-    finally:
-        sys.path.remove(str(DOCS))
-        sys.modules.pop(name, None)
-
-
-ENTRIES = list(module("gallery").entries())
+ENTRIES = list(gallery.entries())
 CODE = "\n".join(code for _, _, code in ENTRIES)
 
 
 @pytest.mark.usefixtures("package")
 def test_the_gallery_shows_what_its_code_draws():
-    gallery = module("gallery")
     for name, caption, code in ENTRIES:
         drawn = gallery.draw(code, caption).convert("RGB")
         with Image.open(DOCS / name) as file:
@@ -53,7 +41,7 @@ def test_each_picture_is_shown_once_and_there_are_no_others():
 def test_the_pictures_of_the_gallery_differ():
     pictures = {}
     for name, _, code in ENTRIES:
-        fb = module("gallery").run(code)
+        fb = gallery.run(code)
         pictures.setdefault((fb.depth, fb.pixels.tobytes()), []).append(name)
     assert [names for names in pictures.values() if len(names) > 1] == []
 
@@ -80,7 +68,6 @@ def test_links_lead_somewhere(page):
 
 
 def test_the_excerpts_and_tables_are_what_the_code_has():
-    examples = module("worked_examples")
     page = examples.PAGE.read_text(encoding="utf-8")
     assert examples.page(page) == page, "run docs/make_pictures.py"
     assert page.count("```python") == len(examples._EXCERPT.findall(page)), "an excerpt follows no link to its function"
