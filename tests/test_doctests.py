@@ -25,6 +25,7 @@ WITHOUT_EXAMPLE = {
     "paneldraw.transports.Cost",
     "paneldraw.transports.Plan",
     "paneldraw.transports.Transport",
+    "paneldraw.update.Planner",
 }
 
 

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import cython
 import numpy as np
@@ -27,8 +27,6 @@ else:
     from paneldraw.raster.polygons import polygons
     from paneldraw.raster.strokes import Contours, Dashes, stroke
     from paneldraw.raster.supersample import Supersample
-
-if TYPE_CHECKING:
     from paneldraw.raster.surface import Surface
 
 
@@ -96,10 +94,18 @@ class Paths:
         points = pairs(path.exact)
         if len(points) == 1 or (closed and len(points) > 2):
             points.append(points[0])
+        # First on a surface of its own: what is painted where lines meet or cross shall be painted once.
+        width, height = self.surface.width, self.surface.height
+        memory = np.zeros(width * height, np.uint8)
+        marks: Surface = Surface(memory, 0, width, width, height, 1)
+        marks.set_window(self.surface.left, self.surface.top, self.surface.right, self.surface.bottom)
+        marks.dip(1, 0)
         phase = 0
         for (x1, y1), (x2, y2) in pairwise(points):
-            far(self.surface, x1, y1, x2, y2, lengths.tolist(), phase)
+            far(marks, x1, y1, x2, y2, lengths.tolist(), phase)
             phase += max(abs(x2 - x1), abs(y2 - y1))
+        for i in np.flatnonzero(memory).tolist():
+            self.surface.point(i % width, i // width)
 
     @cython.cfunc
     def _stroke(

@@ -64,6 +64,33 @@ def rectangle(width, height, x1, y1, x2, y2, thickness, cap="square", n=1, refer
     return inside.reshape(height, n, width, n).sum(axis=(1, 3))
 
 
+def polygon(width, height, corners, rule="even-odd", n=1, reference="center"):
+    """How many of the reference points of each pixel the polygon goes around an odd number of times, or any number."""
+    xs, ys = reference_points(width, n, reference), reference_points(height, n, reference)
+    corners = [tuple(nearest(Fraction(value) * 256) * 2 * n for value in corner) for corner in corners]
+    turns = np.zeros((height * n, width * n), int)
+    for (x1, y1), (x2, y2) in zip(corners, corners[1:] + corners[:1], strict=True):
+        sign = 1 if y1 < y2 else -1
+        if y2 < y1:
+            x1, y1, x2, y2 = x2, y2, x1, y1
+        beside = ((y1 <= ys) & (ys < y2))[:, None]
+        right_of_it = (y2 - y1) * (xs[None, :] - x1) >= (x2 - x1) * (ys[:, None] - y1)
+        turns += sign * (beside & right_of_it)
+    inside = turns % 2 == 1 if rule == "even-odd" else turns != 0
+    return inside.reshape(height, n, width, n).sum(axis=(1, 3))
+
+
+def dashed(width, height, x1, y1, x2, y2, dash, phase=0):
+    """The pixels of a line that a pattern shows, which counts them from (x1, y1)."""
+    lit = bresenham(width, height, x1, y1, x2, y2)
+    pattern = [k % 2 == 0 for k, length in enumerate(dash * 2) for _ in range(length)]
+    steep = abs(x2 - x1) < abs(y2 - y1)
+    for y, x in np.argwhere(lit).tolist():
+        step = abs(y - y1) if steep else abs(x - x1)
+        lit[y, x] = pattern[(step + phase) % len(pattern)]
+    return lit
+
+
 def reference_points(pixels, n, reference):
     """Where the reference points of the sub-pixels are along one axis, in 512 n-ths of a pixel."""
     first = -256 * n + (256 if reference == "center" else 0)

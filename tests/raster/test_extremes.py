@@ -22,6 +22,11 @@ sizes = numbers.map(abs)
 ops = st.sampled_from(["over", "xor", "add", "max", "clear"])
 samples = st.one_of(st.none(), st.tuples(st.integers(1, 16), st.sampled_from(["center", "corner"])))
 caps = st.sampled_from(["square", "butt"])
+paths = st.lists(st.tuples(numbers, numbers), max_size=6)
+ends = st.sampled_from(["butt", "square", "round"])
+joins = st.sampled_from(["miter", "round", "bevel"])
+square, mitered = ends.filter(lambda cap: cap != "round"), joins.filter(lambda join: join != "round")
+dashes = st.lists(st.one_of(st.integers(1, 9), sizes.filter(lambda w: w >= 1)), min_size=1, max_size=3)
 
 calls = st.one_of(
     st.tuples(st.just("pixel"), st.tuples(numbers, numbers)),
@@ -31,6 +36,13 @@ calls = st.one_of(
     st.tuples(st.just("circle"), st.tuples(numbers, numbers, sizes)),
     st.tuples(st.just("line"), st.tuples(*[numbers] * 4)),
     st.tuples(st.just("thick"), st.tuples(*[numbers] * 4, sizes.filter(lambda w: w >= 1), caps, samples)),
+    st.tuples(st.just("polyline"), st.tuples(paths)),
+    st.tuples(st.just("polygon"), st.tuples(paths, near, near)),
+    st.tuples(
+        st.just("stroke"), st.tuples(paths, st.floats(1, 40), ends, joins, st.one_of(st.none(), dashes), samples)
+    ),
+    # Arcs of such a size, or so many dashes, the interpreted package would draw for minutes.
+    st.tuples(st.just("stroke"), st.tuples(paths, sizes.filter(lambda w: w >= 1), square, mitered, st.none(), samples)),
     st.tuples(st.just("text"), st.tuples(st.text("Ag\n\t", max_size=30), numbers, numbers)),
     st.tuples(st.just("image"), st.tuples(st.integers(0, 30), st.integers(0, 30), numbers, numbers)),
 )
@@ -41,6 +53,13 @@ def perform(package, fb, call, arguments, level, op):
     if call == "thick":
         *ends, width, cap, samples = arguments
         fb.line(*ends, level, width=width, cap=cap, antialias=samples and package.Supersample(*samples), op=op)
+    elif call == "stroke":
+        points, width, cap, join, dash, samples = arguments
+        samples = samples and package.Supersample(*samples)
+        fb.polyline(points, level, width=width, cap=cap, join=join, dash=dash, antialias=samples, op=op)
+    elif call == "polygon":
+        points, x, y = arguments
+        fb.poly(x, y, points, level, fill=True, op=op)
     elif call == "image":
         width, height, x, y = arguments
         fb.image(np.arange(width * height, dtype=np.int64).astype(np.uint8).reshape(height, width), x, y)
@@ -50,7 +69,7 @@ def perform(package, fb, call, arguments, level, op):
         getattr(fb, call)(*arguments, level, op=op)
 
 
-@settings(max_examples=300)
+@settings(max_examples=200)
 @given(
     st.lists(st.tuples(calls, ops), min_size=1, max_size=6), st.integers(1, 40), st.integers(1, 40), st.integers(1, 15)
 )
@@ -74,8 +93,8 @@ def perform_all(package, script, width, height, level):
     return fb.pixels
 
 
-@settings(max_examples=100)
-@given(st.lists(st.tuples(calls, ops), min_size=20, max_size=40))
+@settings(max_examples=50)
+@given(st.lists(st.tuples(calls, ops), min_size=10, max_size=20))
 def test_neighbors_in_memory_are_left_alone(script):
     """Framebuffers of a size lie close together; only the one drawn on may change."""
     row = [paneldraw.Framebuffer(16, 8, depth=8) for _ in range(9)]

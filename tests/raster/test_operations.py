@@ -35,6 +35,13 @@ def shapes(draw):
                 ("circle", (x, y, w), {}),
                 ("circle", (x, y, w), {"fill": True}),
                 ("text", ("g%", x, y), {}),
+                ("line", (x, y, x + w - 7, y + h - 7), {"dash": (2, 1)}),
+                ("line", (x, y, x + w - 7, y + h - 7), {"width": 3, "cap": "round", "dash": (2, 1.5)}),
+                ("triangle", (x, y, x + w - 7, y + h - 7, 3, 4), {}),
+                ("triangle", (x, y, x + w - 7, y + h - 7, 3, 4), {"fill": True}),
+                ("poly", (x, y, [0, 0, 5, 6, 6, 0, h - 7, w - 7]), {"fill": True}),
+                ("polyline", ([x, y, 5, 6, 6, 0, w - 7, h - 7],), {}),
+                ("polyline", ([x, y, 5, 6, 6, 0, w - 7, h - 7],), {"width": 2, "join": "round", "closed": True}),
             ]
         )
     )
