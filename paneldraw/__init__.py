@@ -12,13 +12,14 @@ if not _compiled.COMPILED:
     _interpreted.load_sources()
 
 from paneldraw.framebuffer import Framebuffer
+from paneldraw.raster.cone import ConeFilter
 from paneldraw.raster.supersample import Supersample
 
 if TYPE_CHECKING:
     from paneldraw.panel import Panel, open_panel
     from paneldraw.text import Font
 
-__all__ = ["Font", "Framebuffer", "Panel", "Supersample", "open_panel"]
+__all__ = ["ConeFilter", "Font", "Framebuffer", "Panel", "Supersample", "open_panel"]
 
 _LATER = {"Font": "text", "Panel": "panel", "open_panel": "panel"}
 

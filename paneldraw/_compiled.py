@@ -11,6 +11,7 @@ MODULES = (
     "paneldraw.raster.supersample",
     "paneldraw.raster.lines",
     "paneldraw.raster.thick",
+    "paneldraw.raster.cone",
     "paneldraw.raster.polygons",
     "paneldraw.raster.strokes",
     "paneldraw.raster.outlines",

@@ -13,7 +13,12 @@ from cython.cimports.cpython.long import PyLong_AsLongLongAndOverflow
 from cython.cimports.libc.math import floor
 from numpy.typing import NDArray
 
-if not cython.compiled:
+from paneldraw.raster.cone import SAMPLES
+
+if cython.compiled:
+    from cython.cimports.paneldraw.raster.cone import ConeFilter
+else:
+    from paneldraw.raster.cone import ConeFilter
     from paneldraw.raster.supersample import Supersample
 
 if TYPE_CHECKING:
@@ -24,7 +29,7 @@ if TYPE_CHECKING:
     Int: TypeAlias = int
     Str: TypeAlias = str
     Level: TypeAlias = SupportsIndex | None
-    Antialias: TypeAlias = Supersample | None
+    Antialias: TypeAlias = Supersample | ConeFilter | None
     AntialiasOrDefault: TypeAlias = Antialias | EllipsisType
 
 LARGEST = 65536
@@ -37,6 +42,7 @@ FAR = cython.declare(cython.longlong, 1 << 62)
 FIXED_REACH = cython.declare(cython.longlong, 1 << 18)
 
 _ALIASED = Supersample(1)
+_WEIGHED = Supersample(SAMPLES)
 
 
 @cython.cfunc
@@ -174,11 +180,15 @@ def not_negative(name: str, number: int) -> int:
 
 
 def as_samples(antialias: Any) -> Supersample:
-    """A call's anti-aliasing as a Supersample; None is one sample a pixel."""
+    """A call's anti-aliasing as the samples to take: None is one a pixel, and a filter weighs 16 x 16."""
     if antialias is None:
         return _ALIASED
+    if isinstance(antialias, ConeFilter):
+        return _WEIGHED
     if not isinstance(antialias, Supersample):
-        raise TypeError(f"antialias must be None or a Supersample, such as Supersample(4), not {antialias!r}")
+        raise TypeError(
+            f"antialias must be None, a Supersample, such as Supersample(4), or a ConeFilter, not {antialias!r}"
+        )
     return antialias
 
 

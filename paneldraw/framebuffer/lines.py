@@ -20,6 +20,7 @@ from paneldraw.framebuffer.arguments import (
     to_256ths,
     whole,
 )
+from paneldraw.raster.far import cut_path
 from paneldraw.raster.strokes import CAPS
 
 if cython.compiled:
@@ -32,12 +33,14 @@ if cython.compiled:
         quick,
         quick_256ths,
     )
+    from cython.cimports.paneldraw.raster.cone import ConeFilter, strip
     from cython.cimports.paneldraw.raster.lines import bresenham, dashed, far
     from cython.cimports.paneldraw.raster.supersample import Supersample
     from cython.cimports.paneldraw.raster.thick import slab, slab_far
 else:
     from paneldraw.framebuffer.arguments import FAR, FIXED_REACH, NEAR, Points, pointer_to_int64, quick, quick_256ths
     from paneldraw.framebuffer.paths import Paths
+    from paneldraw.raster.cone import ConeFilter, strip
     from paneldraw.raster.lines import bresenham, dashed, far
     from paneldraw.raster.supersample import Supersample
     from paneldraw.raster.thick import slab, slab_far
@@ -117,7 +120,7 @@ class Lines(Paths):
             of width 1 counts pixels; others measure along the line, and their dashes are cut square.
         algorithm : {"bresenham", "dda"}
             How the pixels of an aliased line of width 1 are found. They are the same; the DDA is there to compare.
-        antialias : Supersample or None, optional
+        antialias : Supersample, ConeFilter or None, optional
             Default: the framebuffer's.
         op : {"over", "xor", "add", "max", "clear"}
 
@@ -149,15 +152,15 @@ class Lines(Paths):
             self._thin(x1, y1, x2, y2)
             return
         dda: cython.bint = choice("algorithm", algorithm, _ALGORITHMS)
-        samples: Supersample = as_samples(antialias)
+        as_samples(antialias)
         wide = line_width(width)
         if antialias is None and wide == 256:
             self._thin_path(Points("line", (x1, y1, x2, y2), False), False, dash_lengths(dash), dda)
         elif dash is None and shape != _ROUND:
-            self._thick(x1, y1, x2, y2, wide, shape == _SQUARE, samples)
+            self._thick(x1, y1, x2, y2, wide, shape == _SQUARE, antialias)
         else:
             path = Points("line", (x1, y1, x2, y2), True)
-            self._stroke(path, False, wide, shape, 0, dash_lengths(dash), samples)
+            self._stroke(path, False, wide, shape, 0, dash_lengths(dash), antialias)
 
     @cython.cfunc
     @cython.inline
@@ -180,25 +183,47 @@ class Lines(Paths):
 
     @cython.cfunc
     @cython.inline
-    def _thick(self, x1: Any, y1: Any, x2: Any, y2: Any, width: Any, square: cython.bint, samples: Supersample) -> Any:
+    def _thick(self, x1: Any, y1: Any, x2: Any, y2: Any, width: Any, square: cython.bint, antialias: Any) -> Any:
         a: cython.longlong = quick_256ths(x1)
         b: cython.longlong = quick_256ths(y1)
         c: cython.longlong = quick_256ths(x2)
         d: cython.longlong = quick_256ths(y2)
         if a != FAR and b != FAR and c != FAR and d != FAR and width <= _WIDE:
-            slab(self.surface, a, b, c, d, width, square, samples.n, samples.corner)
+            self._rectangle(a, b, c, d, width, square, antialias)
         else:
             x1, y1 = to_256ths("x1", x1), to_256ths("y1", y1)
             x2, y2 = to_256ths("x2", x2), to_256ths("y2", y2)
-            self._thick_far(x1, y1, x2, y2, width, square, samples)
+            self._thick_far(x1, y1, x2, y2, width, square, antialias)
 
     @cython.cfunc
-    def _thick_far(
-        self, x1: Any, y1: Any, x2: Any, y2: Any, width: Any, square: cython.bint, samples: Supersample
+    @cython.inline
+    def _rectangle(
+        self,
+        x1: cython.longlong,
+        y1: cython.longlong,
+        x2: cython.longlong,
+        y2: cython.longlong,
+        width: cython.longlong,
+        square: cython.bint,
+        antialias: Any,
     ) -> Any:
-        if max(abs(x1), abs(y1), abs(x2), abs(y2)) <= FIXED_REACH * 256 and width <= _WIDE:
-            slab(self.surface, x1, y1, x2, y2, width, square, samples.n, samples.corner)
+        """The rectangle around a line; lengths in 256ths."""
+        if isinstance(antialias, ConeFilter):
+            cone: ConeFilter = antialias
+            strip(self.surface, cone, x1 / 256.0, y1 / 256.0, x2 / 256.0, y2 / 256.0, width / 256.0, square)
         else:
+            samples: Supersample = as_samples(antialias)
+            slab(self.surface, x1, y1, x2, y2, width, square, samples.n, samples.corner)
+
+    @cython.cfunc
+    def _thick_far(self, x1: Any, y1: Any, x2: Any, y2: Any, width: Any, square: cython.bint, antialias: Any) -> Any:
+        if max(abs(x1), abs(y1), abs(x2), abs(y2)) <= FIXED_REACH * 256 and width <= _WIDE:
+            self._rectangle(x1, y1, x2, y2, width, square, antialias)
+        elif isinstance(antialias, ConeFilter):
+            for a, b, c, d in cut_path([x1, y1, x2, y2], False):
+                self._rectangle(a, b, c, d, min(width, FIXED_REACH * 256), square, antialias)
+        else:
+            samples: Supersample = as_samples(antialias)
             slab_far(self.surface, x1, y1, x2, y2, width, square, samples.n, samples.corner)
 
     def lines(
@@ -231,7 +256,7 @@ class Lines(Paths):
         self._dip(c, op)
         shape: cython.int = choice("cap", cap, CAPS)
         dda: cython.bint = choice("algorithm", algorithm, _ALGORITHMS)
-        samples: Supersample = as_samples(antialias)
+        as_samples(antialias)
         pattern = dash_lengths(dash)
         wide = line_width(width)
         thin: cython.bint = antialias is None and wide == 256
@@ -245,7 +270,7 @@ class Lines(Paths):
         if thin:
             self._thin_lines(numbers, lengths, dda)
         else:
-            self._thick_lines(numbers, wide, shape == _SQUARE, samples)
+            self._thick_lines(numbers, wide, shape == _SQUARE, antialias)
 
     @cython.cfunc
     def _thin_lines(self, numbers: Any, lengths: Any, dda: cython.bint) -> Any:
@@ -260,12 +285,11 @@ class Lines(Paths):
                 bresenham(self.surface, p[row], p[row + 1], p[row + 2], p[row + 3])
 
     @cython.cfunc
-    def _thick_lines(self, numbers: Any, width: cython.longlong, square: cython.bint, samples: Supersample) -> Any:
+    def _thick_lines(self, numbers: Any, width: cython.longlong, square: cython.bint, antialias: Any) -> Any:
         row: cython.Py_ssize_t
         p: cython.p_longlong = pointer_to_int64(numbers)
-        n: cython.int = samples.n
         for row in range(0, 4 * len(numbers), 4):
-            slab(self.surface, p[row], p[row + 1], p[row + 2], p[row + 3], width, square, n, samples.corner)
+            self._rectangle(p[row], p[row + 1], p[row + 2], p[row + 3], width, square, antialias)
 
     def points(self, xy: ArrayLike, c: Level = None, *, op: Str = "over") -> None:
         """Paint many pixels in one call: the rows (x, y) of an array of shape (n, 2).

@@ -15,6 +15,7 @@ from paneldraw.raster.surface import OPS
 
 if cython.compiled:
     from cython.cimports.paneldraw.framebuffer.arguments import FAR, FIXED_REACH, Points, pointer_to_int64, quick
+    from cython.cimports.paneldraw.raster.cone import ConeFilter
     from cython.cimports.paneldraw.raster.lines import far
     from cython.cimports.paneldraw.raster.outlines import Polyline
     from cython.cimports.paneldraw.raster.polygons import polygons
@@ -22,6 +23,7 @@ if cython.compiled:
     from cython.cimports.paneldraw.raster.supersample import Supersample
 else:
     from paneldraw.framebuffer.arguments import FAR, FIXED_REACH, Points, pointer_to_int64, quick
+    from paneldraw.raster.cone import ConeFilter
     from paneldraw.raster.lines import far
     from paneldraw.raster.outlines import Polyline
     from paneldraw.raster.polygons import polygons
@@ -61,9 +63,19 @@ class Paths:
         return level
 
     @cython.cfunc
-    def _samples(self, antialias: Any) -> Supersample:
-        """The anti-aliasing of a call, as a Supersample."""
-        return as_samples(self._antialias if antialias is ... else antialias)
+    def _begin(self, antialias: Any) -> Supersample:
+        """Prepare to paint a shape with this anti-aliasing; returns the samples to take. `_end` must follow."""
+        samples = as_samples(antialias)
+        if isinstance(antialias, ConeFilter):
+            cone: ConeFilter = antialias
+            cone.begin(self.surface)
+        return samples
+
+    @cython.cfunc
+    def _end(self) -> Any:
+        """Paint what a filter has gathered since `_begin`."""
+        if self.surface.weighing:
+            self.surface.finish_weighing()
 
     @cython.cfunc
     def _block(self, x: Any, y: Any, w: Any, h: Any) -> Any:
@@ -116,7 +128,7 @@ class Paths:
         cap: cython.int,
         join: cython.int,
         dash: Any,
-        samples: Supersample,
+        antialias: Any,
     ) -> Any:
         """A path of any width, its points and lengths in 256ths of a pixel, as one shape."""
         contours = Contours()
@@ -126,8 +138,24 @@ class Paths:
         else:
             for piece in cut_path(path.exact, closed):
                 self._add_stroke(contours, Points("points", piece, False), False, width, cap, join, dash)
-        if contours.contours:
-            polygons(self.surface, contours.points, contours.ends, contours.contours, True, samples.n, samples.corner)
+        self._fill_contours(contours.points, contours.ends, contours.contours, True, antialias)
+
+    @cython.cfunc
+    def _fill_contours(
+        self,
+        points: cython.p_longlong,
+        ends: cython.p_Py_ssize_t,
+        contours: cython.Py_ssize_t,
+        nonzero: cython.bint,
+        antialias: Any,
+    ) -> Any:
+        """What `polygons` fills, with any anti-aliasing."""
+        if contours:
+            samples: Supersample = self._begin(antialias)
+            try:
+                polygons(self.surface, points, ends, contours, nonzero, samples.n, samples.corner)
+            finally:
+                self._end()
 
     @cython.cfunc
     def _add_stroke(

@@ -13,13 +13,9 @@ from paneldraw.raster.strokes import CAPS, JOINS
 
 if cython.compiled:
     from cython.cimports.paneldraw.framebuffer.arguments import Points
-    from cython.cimports.paneldraw.raster.polygons import polygons
-    from cython.cimports.paneldraw.raster.supersample import Supersample
 else:
     from paneldraw.framebuffer.arguments import Points
     from paneldraw.framebuffer.lines import Lines
-    from paneldraw.raster.polygons import polygons
-    from paneldraw.raster.supersample import Supersample
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -171,19 +167,19 @@ class Polygons(Lines):
         if fill:
             corners = Points("coords", coords, True)
             if not _is_flat(corners):
-                self._fill_polygon(corners, nonzero, as_samples(self._antialias if antialias is ... else antialias))
+                self._fill_polygon(corners, nonzero, self._antialias if antialias is ... else antialias)
                 return
         self._outline("coords", coords, True, width, "square", join, None, antialias)
 
     @cython.cfunc
-    def _fill_polygon(self, corners: Points, nonzero: cython.bint, samples: Supersample) -> Any:
+    def _fill_polygon(self, corners: Points, nonzero: cython.bint, antialias: Any) -> Any:
         end: cython.Py_ssize_t[1]
         if not cython.compiled:
             end = [0]
         if corners.exact is not None:
             corners = Points("coords", cut_polygon(corners.exact), False)
         end[0] = corners.count
-        polygons(self.surface, corners.values, end, 1, nonzero, samples.n, samples.corner)
+        self._fill_contours(corners.values, end, 1, nonzero, antialias)
 
     @cython.cfunc
     def _outline(
@@ -202,13 +198,13 @@ class Polygons(Lines):
             antialias = self._antialias
         shape: cython.int = choice("cap", cap, CAPS)
         corner: cython.int = choice("join", join, JOINS)
-        samples: Supersample = as_samples(antialias)
+        as_samples(antialias)
         wide = line_width(width)
         lengths = dash_lengths(dash)
         if antialias is None and wide == 256:
             self._thin_path(Points(name, coords, False), closed, lengths, False)
         else:
-            self._stroke(Points(name, coords, True), closed, wide, shape, corner, lengths, samples)
+            self._stroke(Points(name, coords, True), closed, wide, shape, corner, lengths, antialias)
 
 
 @cython.cfunc

@@ -138,7 +138,7 @@ def _collect(
             edges[count].rest = rest - edges[count].bound * dy
             edges[count].step = _floor_div(dx, dy)
             edges[count].rest_step = dx - edges[count].step * dy
-            row = first // n - surface.top
+            row = _floor_div(first, n) - surface.top
             edges[count].next = starting[row]
             starting[row] = count
             count += 1
@@ -163,6 +163,7 @@ def _fill(
     row: cython.longlong
     crossing: cython.int = 0
     count: cython.int
+    start: cython.int
     edge: cython.int
     i: cython.int
     j: cython.int
@@ -196,6 +197,7 @@ def _fill(
                 active[j] = edge
             winding = 0
             was_inside = False
+            start = count
             for i in range(crossing):
                 edge = active[i]
                 if row < edges[edge].first or row >= edges[edge].end:
@@ -211,4 +213,7 @@ def _fill(
                 if edges[edge].rest >= edges[edge].divisor:
                     edges[edge].rest -= edges[edge].divisor
                     edges[edge].bound += 1
+            if surface.weighing:
+                for i in range(start, count, 2):
+                    surface.weigh(y, row - y * n, spans[i], spans[i + 1])
         paint(surface, y, spans, count >> 1, n)

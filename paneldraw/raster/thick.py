@@ -73,15 +73,18 @@ def block(
     last: cython.longlong = min(_floor_div(bottom + middle + 511, 512), surface.bottom * n)
     a: cython.Py_ssize_t = _floor_div(left + middle + 511, 512)
     b: cython.Py_ssize_t = _floor_div(right + middle + 511, 512)
-    count: cython.int = 0
+    count: cython.int
+    y: cython.longlong
     row: cython.longlong
-    for row in range(first, last):
-        spans[2 * count] = a
-        spans[2 * count + 1] = b
-        count += 1
-        if (row + 1) % n == 0 or row + 1 == last:
-            paint(surface, row // n, spans, count, n)
-            count = 0
+    for y in range(_floor_div(first, n), _floor_div(last - 1, n) + 1):
+        count = 0
+        for row in range(max(first, y * n), min(last, y * n + n)):
+            spans[2 * count] = a
+            spans[2 * count + 1] = b
+            count += 1
+            if surface.weighing:
+                surface.weigh(y, row - y * n, a, b)
+        paint(surface, y, spans, count, n)
 
 
 @cython.cfunc
@@ -198,6 +201,8 @@ def slab(
         for row in range(n):
             spans[2 * row] = max(bound[0], bound[1])
             spans[2 * row + 1] = min(bound[2], bound[3])
+            if surface.weighing:
+                surface.weigh(y, row, spans[2 * row], spans[2 * row + 1])
             for edge in range(4):
                 rest[edge] += rest_step[edge]
                 carry = -cython.cast(cython.longlong, rest[edge] >= divisor[edge])

@@ -1,0 +1,18 @@
+from paneldraw.raster.surface cimport Surface
+
+cdef class ConeFilter:
+    cdef readonly double radius
+    cdef readonly object filter
+    cdef readonly int resolution
+    cdef object kept, kept_kernel
+    cdef double *volumes
+    cdef int *kernel
+    cdef int reach
+
+    cdef double volume(self, double u, double v) noexcept nogil
+    cdef double profile(self, double v) noexcept nogil
+    cdef object begin(self, Surface surface)
+
+cdef void strip(
+    Surface surface, ConeFilter cone, double x1, double y1, double x2, double y2, double width, bint square
+) noexcept nogil
