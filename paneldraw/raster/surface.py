@@ -54,7 +54,7 @@ class Surface:
         self.level = -1
         self.op = -1
         self.full = 0
-        self.n_inverse: Any = 0
+        self.n_inverse = 0
         self.weighing = False
         self.n = 0
         self.reserve()
