@@ -285,3 +285,51 @@ def joins() -> str:
         drawn = math.hypot(*contours.points[4:6]) / half
         rows.append((f"{turn}°", f"{long:.2f}", f"miter, {drawn:.2f}" if mitered else "bevel"))
     return table("turn by|1 / cos(turn / 2)|drawn", rows)
+
+
+# -- The cone
+
+
+def cone_table() -> str:
+    volumes = plain()["cone"].ConeFilter().table[::16, ::16]
+    places = ["-1", "-½", "0", "½", "1"]
+    return table(
+        "C(u, v)|" + "|".join(f"v = {place}" for place in places),
+        [[f"u = {place}", *(f"{volume:.4f}" for volume in row)] for place, row in zip(places, volumes, strict=True)],
+    )
+
+
+def cone_row() -> str:
+    cone, fb = plain()["cone"], plain()["Framebuffer"](8, 3, 4)
+    steps = watch(
+        cone.strip,
+        "covered = cython.cast(cython.int, floor(share * _STEPS + 0.5))",
+        lambda: fb.line(0, 0, 7, 2, antialias=cone.ConeFilter()),
+        lambda at: (at["y"], at["x"], f"{at['u']:.3f}", f"{at['v']:.3f}", f"{at['share']:.4f}"),
+    )
+    rows = [(*step[1:], fb.pixels[1, step[1]]) for step in steps if step[0] == 1]
+    return table("x|u|v|volume|level of 15", rows) + panel(fb)
+
+
+def cone_look_ups() -> str:
+    cone, fb = plain()["cone"], plain()["Framebuffer"](8, 3, 4)
+    at = next(
+        at
+        for at in watch(
+            cone.strip,
+            "covered = cython.cast(cython.int, floor(share * _STEPS + 0.5))",
+            lambda: fb.line(0, 0, 7, 2, antialias=cone.ConeFilter()),
+        )
+        if (at["x"], at["y"]) == (0, 0)
+    )
+    u1, u0, v1, v0 = at["behind"] - at["u"], at["before"] - at["u"], at["half"] - at["v"], -at["half"] - at["v"]
+    rows = [
+        (sign, name, f"({u:.3f}, {v:.3f})", f"{at['cone'].volume(u, v):.4f}")
+        for sign, name, u, v in (
+            ("+", "C(u₁, v₁)", u1, v1),
+            ("-", "C(u₀, v₁)", u0, v1),
+            ("-", "C(u₁, v₀)", u1, v0),
+            ("+", "C(u₀, v₀)", u0, v0),
+        )
+    ]
+    return table("|look-up|at|value", [*rows, ("=", "volume", "", f"{at['share']:.4f}")])

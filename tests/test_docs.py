@@ -51,9 +51,10 @@ def test_every_drawing_call_is_in_the_gallery(call):
     assert call in NOT_DRAWING or re.search(rf"\bfb\.{call}\(", CODE)
 
 
-@pytest.mark.parametrize(
-    "word", [*OPS, *CAPS, *JOINS, "even-odd", "nonzero", "dda", "bayer", "floyd-steinberg", "corner", "closed", "dash"]
-)
+WORDS = "even-odd nonzero dda bayer floyd-steinberg corner box gaussian radius closed dash key palette"
+
+
+@pytest.mark.parametrize("word", [*OPS, *CAPS, *JOINS, *WORDS.split()])
 def test_every_option_is_in_the_gallery(word):
     assert f'"{word}"' in CODE or f"{word}=" in CODE
 
@@ -63,7 +64,8 @@ def test_links_lead_somewhere(page):
     text = (DOCS / page).read_text(encoding="utf-8")
     titles = re.findall(r"^#+ (.*)$", text, re.M)
     anchors = {re.sub(r"[^\w -]", "", title).lower().replace(" ", "-") for title in titles}
-    for link in re.findall(r"\]\((.*?)\)", text):
+    prose = re.sub(r"^```.*?^```$", "", text, flags=re.M | re.S)
+    for link in re.findall(r"\]\((.*?)\)", prose):
         assert link[1:] in anchors if link.startswith("#") else (DOCS / link).exists(), link
 
 
