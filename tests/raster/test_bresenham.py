@@ -11,7 +11,7 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 WIDTH, HEIGHT = 23, 17
-near = st.integers(-40, 60)
+near = st.one_of(st.integers(-2, 2), st.integers(14, 24), st.integers(-40, 60))
 THRESHOLD = 2**29  # beyond it the raster computes in another way
 
 
@@ -36,6 +36,14 @@ def crossing_lines(draw, reach):
 @example((3, 3, 3, 3))
 def test_lines_equal_exact_rounding(package, ends):
     assert (drawn(package, *ends) == definitions.bresenham(WIDTH, HEIGHT, *ends)).all()
+
+
+@pytest.mark.parametrize("x", [-2, -1, 0, 2, 5, 6, 7])
+@pytest.mark.parametrize("y", [-2, -1, 0, 1, 3, 4])
+def test_all_lines_around_a_small_picture_equal_exact_rounding(package, x, y):
+    for x2 in range(-3, 10):
+        for y2 in range(-3, 8):
+            assert (drawn(package, x, y, x2, y2, 6, 4) == definitions.bresenham(6, 4, x, y, x2, y2)).all(), (x2, y2)
 
 
 @pytest.mark.parametrize("reach", [2**20, 2 * THRESHOLD, 2**63, 2**70])

@@ -50,6 +50,16 @@ def test_circles_on_both_sides_of_the_threshold_equal_the_nearest_pixels(package
         assert (drawn(package, x, y, r, fill) == definitions.circle(WIDTH, HEIGHT, x, y, r, fill)).all()
 
 
+def test_large_circles_end_their_top_row_where_the_definition_does(package):
+    """A square as radius, r = k * k: the pixel k steps from the top just is not in the top row."""
+    k = 129
+    assert k * k > LARGE_RADIUS
+    lit = drawn(package, 10 - k, 7 + k * k, k * k)
+    assert (lit == definitions.circle(WIDTH, HEIGHT, 10 - k, 7 + k * k, k * k)).all()
+    assert lit[7, 9]
+    assert not lit[7, 10]
+
+
 @given(*[st.sampled_from([-(2**70), -FAR - 1, -FAR, 3, FAR, FAR + 1, 2**63, 2**70])] * 2, st.integers(0, 2**71))
 @example(FAR, 3, FAR)
 @example(FAR + 1, 3, FAR + 1)

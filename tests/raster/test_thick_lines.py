@@ -52,6 +52,28 @@ def test_lines_equal_counting(package, ends, width, cap, samples):
     assert (drawn(package, ends, width, cap, *samples) == counted(ends, width, cap, *samples)).all()
 
 
+within = st.tuples(
+    *[st.integers(0, 12 * 256).map(lambda v: v / 256), st.integers(0, 8 * 256).map(lambda v: v / 256)] * 2
+)
+
+
+@settings(max_examples=150)
+@given(within, st.integers(100, 1000).map(lambda v: v / 256), caps, st.sampled_from([(4, "center"), (3, "corner")]))
+def test_lines_within_the_picture_equal_counting(package, ends, width, cap, samples):
+    assert (drawn(package, ends, width, cap, *samples) == counted(ends, width, cap, *samples)).all()
+
+
+@pytest.mark.parametrize("across", [-1, 1])
+@pytest.mark.parametrize("along", [-1, 1])
+def test_points_just_within_an_edge_are_in(package, across, along):
+    """A center 16 lattice steps from a line whose edge lies 16.97 steps away, which no rounded bound may cut off."""
+    x, y, step = 5, 4 + across * 4 / 256, along / 256
+    for ends in ((x, y, x + step, y + step), (x, y, x + step, y - step)):
+        lit = drawn(package, ends, 6 / 256)
+        assert lit[4, 5] == 1
+        assert (lit == counted(ends, 6 / 256)).all()
+
+
 @settings(max_examples=25)
 @given(st.tuples(*[coordinates] * 4), widths, caps, samples)
 def test_lines_of_many_samples_equal_counting(package, ends, width, cap, samples):
