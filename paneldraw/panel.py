@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 import contextlib
+import operator
 import os
 import sys
 import threading
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import Any, Final, Literal, NamedTuple, TypeVar
-from urllib.parse import SplitResult, parse_qsl, urlsplit
+from typing import Any, Final, Literal, NamedTuple, TypeVar, cast
 
 import numpy as np
 import numpy.typing as npt
 
-from paneldraw.controllers import CHIPS, Controller
+from paneldraw import urls
+from paneldraw.controllers import Controller
 from paneldraw.controllers.packing import pack_pages
 from paneldraw.errors import PanelError, TransportError
 from paneldraw.framebuffer import Framebuffer, pictures
@@ -221,10 +222,11 @@ class Panel:
 
     def contrast(self, level: int) -> None:
         """Set the brightness of lit pixels, 0 to 255."""
+        level = operator.index(level)
         if not 0 <= level <= 255:
             raise ValueError(f"level must be 0 to 255, not {level!r}")
         with self._lock:
-            self._contrast = int(level)
+            self._contrast = level
             self._change(self._contrast_command())
 
     def invert(self, inverted: bool = True) -> None:
@@ -337,13 +339,13 @@ class Panel:
         wire = messages = 0
         if not self._ready:
             wire, messages = self._start(), 1
+        self._ready = False  # the planner counts a plan as sent
         plan = self._planner.plan()
         if plan.count:
-            self._ready = False
             wire += self.transport.batch(plan)
-            self._ready = True
             self._planner.sent()
             self._shown = True
+        self._ready = True
         if not (self._lit or self._asleep):
             wire += self._command(self.controller.power_on)
             messages += 1
@@ -428,75 +430,18 @@ def open_panel(url: str | None = None) -> Panel:
     ...     panel
     <Panel ssd1306 128x32, rotate=0>
     """
-    if url is None:
-        url = os.environ.get("PANELDRAW_PANEL") or "sim://ssd1306"
-    if not isinstance(url, str):
-        raise TypeError(f"url must be a str, not {type(url).__name__}")
-    parts = urlsplit(url)
-    opener = _OPENERS.get(parts.scheme)
-    if opener is None:
-        known = " or ".join(f"{scheme}://" for scheme in _OPENERS)
-        raise ValueError(f"url must begin with {known}, not {url!r}")
-    return opener(parts)
-
-
-def _open_i2c(parts: SplitResult) -> Panel:
-    if parts.netloc:
-        place, address = parts.netloc, parts.path.strip("/")
-    else:
-        place, _, address = parts.path.rpartition("/")
-    bus = int(place) if place.isdecimal() else place or "1"
-    query = _query(parts, "chip", "size", "rotate", "on_close")
-    controller = _controller(query.get("chip", "ssd1306"), query.get("size"))
-    return _panel(controller, I2CTransport(bus, _number(address or "0x3c", "address")), query)
-
-
-def _open_sim(parts: SplitResult) -> Panel:
-    from paneldraw import simulator  # a script with a real panel does not pay for it
-
-    query = _query(parts, "size", "rotate", "on_close")
-    controller = _controller(parts.netloc or "ssd1306", query.get("size"))
-    chip = getattr(simulator, controller.name.upper())(controller.width, controller.height)
-    return _panel(controller, I2CTransport(simulator.I2CBus({0x3C: chip})), query)
-
-
-_OPENERS: Final = {"i2c": _open_i2c, "sim": _open_sim}
-
-
-def _panel(controller: Controller, transport: Transport, query: dict[str, str]) -> Panel:
+    wanted = urls.parse(os.environ.get("PANELDRAW_PANEL") or "sim://ssd1306" if url is None else url)
+    transport = _simulated(wanted) if wanted.scheme == "sim" else I2CTransport(wanted.bus, wanted.address)
     try:
-        rotate = _number(query.get("rotate", "0"), "rotate")
-        return Panel(controller, transport, rotate=rotate, on_close=query.get("on_close", "keep"))  # type: ignore[arg-type]
+        return Panel(wanted.controller, transport, rotate=wanted.rotate, on_close=cast(OnClose, wanted.on_close))
     except BaseException:
         transport.close()
         raise
 
 
-def _query(parts: SplitResult, *known: str) -> dict[str, str]:
-    pairs = parse_qsl(parts.query, keep_blank_values=True)
-    for name, _ in pairs:
-        if name not in known:
-            raise ValueError(f"url must have no parameters but {', '.join(known)}, not {name!r}")
-    query = dict(pairs)
-    if len(query) < len(pairs):
-        raise ValueError(f"url must have each parameter once, not {parts.query!r}")
-    return query
+def _simulated(wanted: urls.PanelURL) -> I2CTransport:
+    from paneldraw import simulator  # a script with a real panel does not pay for it
 
-
-def _controller(chip: str, size: str | None) -> Controller:
-    make = CHIPS.get(chip.lower())
-    if make is None:
-        raise ValueError(f"chip must be one of {', '.join(CHIPS)}, not {chip!r}")
-    if size is None:
-        return make()
-    width, _, height = size.partition("x")
-    if not (width.isdecimal() and height.isdecimal()):
-        raise ValueError(f"size must be like 128x64, not {size!r}")
-    return make(int(width), int(height))
-
-
-def _number(text: str, name: str) -> int:
-    try:
-        return int(text, 0)
-    except ValueError:
-        raise ValueError(f"{name} must be a whole number, such as 60 or 0x3c, not {text!r}") from None
+    controller = wanted.controller
+    chip = getattr(simulator, controller.name.upper())(controller.width, controller.height)
+    return I2CTransport(simulator.I2CBus({wanted.address: chip}), wanted.address)

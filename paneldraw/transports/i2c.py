@@ -71,6 +71,8 @@ class I2CTransport:
         self._owned = isinstance(bus, (int, str, os.PathLike)) and not isinstance(bus, bool)
         if not self._owned and not callable(getattr(bus, "i2c_rdwr", None)):
             raise TypeError(f"bus must be a number, a path or an object with smbus2's interface, not {bus!r}")
+        if isinstance(bus, int) and bus < 0:
+            raise ValueError(f"bus must be 0 or more, not {bus}")
         self.name = _path(bus) if self._owned else type(bus).__name__
         self.bus = self._open(self.name) if self._owned else bus
         self._answered = False
@@ -114,10 +116,24 @@ class I2CTransport:
         if self.bus is None:
             raise TransportError(errno.EBADF, f"the transport to {self.name} is closed")
         try:
-            self.bus.i2c_rdwr(*messages)
+            done = self._rdwr(*messages)
         except OSError as error:
             raise self._translated(error) from error
+        if done is not None and 0 < done < len(messages):
+            raise TransportError(errno.EIO, f"only {done} of {len(messages)} messages reached {self._where()}")
         self._answered = True
+
+    def _rdwr(self, *messages: Any) -> int | None:
+        """Transfer messages; return how many went through, if that is known."""
+        library = self._smbus2.smbus2
+        if type(self.bus) is not library.SMBus:
+            return self.bus.i2c_rdwr(*messages)  # type: ignore[no-any-return]
+        # What SMBus.i2c_rdwr does, which forgets the number that the kernel returns.
+        call = library.i2c_rdwr_ioctl_data.create(*messages)
+        return library.ioctl(self.bus.fd, library.I2C_RDWR, call)  # type: ignore[no-any-return]
+
+    def _where(self) -> str:
+        return f"0x{self.address:02X} on {self.name}"
 
     def _open(self, path: str) -> Any:
         try:
@@ -126,7 +142,7 @@ class I2CTransport:
             raise _not_opened(error, path) from error
 
     def _translated(self, error: OSError) -> TransportError:
-        where = f"0x{self.address:02X} on {self.name}"
+        where = self._where()
         code = error.errno
         if code in _NO_ACKNOWLEDGE:
             kind = PanelDisconnectedError if self._answered else PanelNotFoundError
@@ -141,7 +157,8 @@ class I2CTransport:
             return TransportError(code, f"cannot write to {where}: the adapter takes no messages this long: {advice}")
         if code == errno.ENODEV:
             return PanelDisconnectedError(code, f"{self.name} is gone: plug the adapter in and open a new transport")
-        return TransportError(code, f"cannot write to {where}: {error.strerror or error}")
+        reason = error.strerror or error
+        return TransportError(code, f"cannot write to {where}: {reason}; check the panel's wiring and power")
 
     def _advice(self) -> str:
         others = [other for other in PANEL_ADDRESSES if other != self.address and self._answers(other)]
@@ -151,7 +168,7 @@ class I2CTransport:
 
     def _answers(self, address: int) -> bool:
         try:
-            self.bus.i2c_rdwr(self._smbus2.i2c_msg.read(address, 1))
+            self._rdwr(self._smbus2.i2c_msg.read(address, 1))
         except Exception:  # a probe for an error message must not replace the error
             return False
         return True

@@ -220,7 +220,8 @@ class Planner:
     def _choose(self) -> cython.void:
         """Write the cheapest plan for the pieces."""
         best: cython.int = self._solve()
-        if not self._with_windows or (self._count == 1 and self._writer.mode == _PAGE):
+        # The first frame goes by page pointer too: small updates follow it more often than windows.
+        if not self._with_windows or not self._writer.known or (self._count == 1 and self._writer.mode == _PAGE):
             self._write_path(self._order, self._count)
             return
         windows: Windows = self._windows

@@ -1,0 +1,126 @@
+"""What a panel's URL asks for."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Final
+from urllib.parse import SplitResult, parse_qsl, urlsplit
+
+from paneldraw.controllers import CHIPS, Controller
+
+_CHIP: Final = "ssd1306"
+_ADDRESS: Final = 0x3C
+_FORMS: Final = {
+    "i2c": "i2c://1/0x3c?chip=ssd1306&size=128x64&rotate=180",
+    "sim": "sim://ssd1306?size=128x64",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class PanelURL:
+    """A panel's URL, taken apart and checked.
+
+    Attributes
+    ----------
+    scheme : str
+        ``"i2c"`` or ``"sim"``.
+    controller : Controller
+    bus : int or str
+        Number of the I2C bus or path of its device.
+    address : int
+        Address on the bus.
+    rotate : int
+    on_close : str
+        As the URL has them, or as `Panel` would by itself; `Panel` checks them.
+    """
+
+    scheme: str
+    controller: Controller
+    bus: int | str = 1
+    address: int = _ADDRESS
+    rotate: int = 0
+    on_close: str = "keep"
+
+
+def parse(url: str) -> PanelURL:
+    """Take a URL apart.
+
+    Raises
+    ------
+    TypeError
+        It is no str.
+    ValueError
+        A scheme, chip, size, address or parameter that does not exist; the message says what does.
+
+    Examples
+    --------
+    >>> parse("i2c://1/0x3d?size=128x32").controller.height
+    32
+    """
+    if not isinstance(url, str):
+        raise TypeError(f"url must be a str, not {type(url).__name__}")
+    parts = urlsplit(url)
+    if parts.scheme == "i2c":
+        return _i2c(parts)
+    if parts.scheme == "sim":
+        query = _query(parts, "size", "rotate", "on_close")
+        if parts.path.strip("/"):
+            raise ValueError(f"url must have the form {_FORMS['sim']}, not {url!r}")
+        return PanelURL("sim", _controller(parts.netloc or _CHIP, query), **_settings(query))
+    raise ValueError(f"url must have the form {' or '.join(_FORMS.values())}, not {url!r}")
+
+
+def _i2c(parts: SplitResult) -> PanelURL:
+    query = _query(parts, "chip", "size", "rotate", "on_close")
+    if parts.netloc:
+        place, address = parts.netloc, parts.path.strip("/")
+    else:  # i2c:///dev/i2c-1/0x3c
+        place, _, address = parts.path.rpartition("/")
+    if not place or "/" in address:
+        raise ValueError(f"url must have the form {_FORMS['i2c']}, not {parts.geturl()!r}")
+    return PanelURL(
+        "i2c",
+        _controller(query.get("chip", _CHIP), query),
+        bus=int(place) if place.isdecimal() else place,
+        address=_number(address, "address") if address else _ADDRESS,
+        **_settings(query),
+    )
+
+
+def _query(parts: SplitResult, *known: str) -> dict[str, str]:
+    pairs = parse_qsl(parts.query, keep_blank_values=True)
+    for name, _ in pairs:
+        if name not in known:
+            raise ValueError(f"url must have no parameters but {', '.join(known)}, not {name!r}")
+    query = dict(pairs)
+    if len(query) < len(pairs):
+        raise ValueError(f"url must have each parameter once, not {parts.query!r}")
+    return query
+
+
+def _controller(chip: str, query: dict[str, str]) -> Controller:
+    make = CHIPS.get(chip.lower())
+    if make is None:
+        raise ValueError(f"chip must be one of {', '.join(CHIPS)}, not {chip!r}")
+    if "size" not in query:
+        return make()
+    width, _, height = query["size"].partition("x")
+    if not (width.isdecimal() and height.isdecimal()):
+        raise ValueError(f"size must be like 128x64, not {query['size']!r}")
+    return make(int(width), int(height))
+
+
+def _settings(query: dict[str, str]) -> dict[str, Any]:
+    settings: dict[str, Any] = {}
+    if "rotate" in query:
+        settings["rotate"] = _number(query["rotate"], "rotate")
+    if "on_close" in query:
+        settings["on_close"] = query["on_close"]
+    return settings
+
+
+def _number(text: str, name: str) -> int:
+    try:
+        return int(text, 0)
+    except ValueError:
+        raise ValueError(f"{name} must be a whole number, such as 60 or 0x3c, not {text!r}") from None

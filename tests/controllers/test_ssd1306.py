@@ -1,0 +1,104 @@
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from paneldraw import Panel, simulator
+from paneldraw.controllers import SSD1306
+from paneldraw.transports import I2CTransport
+
+MODULES = {
+    # size: first column, multiplex, COM pins
+    (128, 64): (0, 0x3F, 0x12),
+    (128, 32): (0, 0x1F, 0x02),
+    (96, 16): (0, 0x0F, 0x02),
+    (72, 40): (28, 0x27, 0x12),
+    (64, 48): (32, 0x2F, 0x12),
+    (64, 32): (32, 0x1F, 0x12),
+}
+
+
+def initialized(controller):
+    chip = simulator.SSD1306(controller.width, controller.height)
+    chip.write(b"\x00" + controller.resync + controller.init)
+    return chip
+
+
+@pytest.mark.parametrize("size", MODULES)
+def test_init_sets_what_a_module_of_this_size_needs(size):
+    controller = SSD1306(*size)
+    chip = initialized(controller)
+    registers = chip.registers
+    assert (controller.column_offset, registers.multiplex, registers.com_pins & 0x32) == MODULES[size]
+    assert (registers.start_line, registers.offset) == (0, 0)
+    assert registers.segment_remap
+    assert registers.com_reversed
+    assert registers.pump_enabled
+    assert (registers.on, registers.inverted, registers.all_on) == (False, False, False)
+    assert chip.violations == []
+
+
+@pytest.mark.parametrize("size", MODULES)
+@pytest.mark.parametrize("mirror", [(True, False), (False, True), (True, True)])
+def test_mirrored_glass(size, mirror):
+    chip = simulator.SSD1306(*size)
+    panel = Panel(SSD1306(*size, mirror_x=mirror[0], mirror_y=mirror[1]), I2CTransport(simulator.I2CBus({0x3C: chip})))
+    picture = np.random.default_rng(1).integers(0, 2, size[::-1], np.uint8)
+    panel.show(picture)
+    seen = chip.pixels[:, ::-1] if mirror[0] else chip.pixels
+    np.testing.assert_array_equal(seen[::-1] if mirror[1] else seen, picture)
+
+
+def test_a_size_that_no_module_has_names_those_that_are():
+    with pytest.raises(ValueError, match=r"128x64, 128x32, 96x16, 72x40, 64x48, 64x32, not 64x128"):
+        SSD1306(64, 128)
+
+
+@pytest.mark.parametrize(
+    ("override", "complaint"),
+    [({"column_offset": 65}, "column_offset"), ({"column_offset": -1}, "column_offset"), ({"com_pins": 3}, "com_pins")],
+)
+def test_overrides_out_of_range(override, complaint):
+    with pytest.raises(ValueError, match=complaint):
+        SSD1306(64, 48, **override)
+
+
+def test_a_misspelled_override_is_an_error():
+    with pytest.raises(TypeError, match="colum_offset"):
+        SSD1306(64, 48, colum_offset=0)
+
+
+def test_external_supply_leaves_the_pump_off():
+    chip = initialized(SSD1306(charge_pump=False))
+    assert not chip.registers.pump_enabled
+
+
+def test_internal_reference_is_one_command_more():
+    assert b"\xad\x30" in SSD1306(72, 40, internal_reference=True).init
+    assert b"\xad" not in SSD1306(72, 40).init
+
+
+def test_records_are_immutable_and_hashable():
+    controller = SSD1306()
+    with pytest.raises(dataclasses.FrozenInstanceError):
+        controller.width = 64  # type: ignore[misc]
+    assert hash(controller) == hash(SSD1306())
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"width": 0},
+        {"height": 60},
+        {"row_offset": 4},
+        {"row_offset": 8},
+        {"packing": "rows"},
+        {"addressing": ("window",)},
+        {"addressing": ("page", "rectangle")},
+    ],
+)
+def test_a_record_that_cannot_be_is_refused(change):
+    with pytest.raises(ValueError, match=next(iter(change))):
+        dataclasses.replace(SSD1306(), **change)

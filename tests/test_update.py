@@ -1,0 +1,272 @@
+from __future__ import annotations
+
+import importlib
+
+import numpy as np
+import pytest
+from exhaustive import cheapest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from paneldraw import simulator
+from paneldraw.controllers import SSD1306, Controller
+from paneldraw.transports import COMMAND, DATA, Cost
+
+I2C = Cost(2, 2, 2)
+SIZES = [(128, 64), (128, 32), (96, 16), (72, 40), (64, 48), (64, 32)]
+
+
+class Glass:
+    """A planner and the chip that takes its plans."""
+
+    def __init__(self, controller=None, cost=I2C):
+        self.controller = controller or SSD1306()
+        self.planner = importlib.import_module("paneldraw.update").Planner(self.controller, cost)
+        self.planner.restart()
+        self.chip = simulator.SSD1306(self.controller.width, self.controller.height)
+        self.chip.write(b"\x00" + self.controller.init)
+
+    def send(self, frame):
+        """Bring a frame onto the chip; return the plan's messages as (kind, payload)."""
+        self.planner.fresh[:] = frame
+        plan = self.planner.plan()
+        messages = [(kind, bytes(payload)) for kind, payload in plan]
+        for kind, payload in messages:
+            self.chip.write(bytes((kind,)) + payload)
+        assert plan.cost == sum(2 + len(payload) for _, payload in messages)
+        self.planner.sent()
+        return messages
+
+    @property
+    def ram(self):
+        """What the chip holds, as the planner sees it: segments are counted from the other end."""
+        left = self.controller.column_offset
+        return self.chip.ram[: self.controller.height // 8, ::-1][:, left : left + self.controller.width]
+
+    def cost(self, frame):
+        return sum(2 + len(payload) for _, payload in self.send(frame))
+
+
+def blank(controller=None):
+    glass = Glass(controller)
+    frame = np.zeros_like(glass.planner.fresh)
+    glass.send(frame)
+    return glass, frame
+
+
+# -- Right
+
+
+@st.composite
+def walks(draw):
+    """A controller and frames that differ by a few bytes, a box or everything."""
+    width, height = draw(st.sampled_from(SIZES))
+    random = np.random.default_rng(draw(st.integers(0, 2**32)))
+    frame = np.zeros((height // 8, width), np.uint8)
+    frames = []
+    for kind in draw(st.lists(st.sampled_from(["bytes", "many", "box", "noise", "row"]), min_size=1, max_size=8)):
+        frame = frame.copy()
+        page, column = random.integers(height // 8), random.integers(width)
+        if kind == "box":
+            frame[page : page + random.integers(1, 5), column : column + random.integers(1, 40)] ^= 0xFF
+        elif kind == "noise":
+            frame[:] = random.integers(0, 256, frame.shape)
+        elif kind == "row":
+            frame[page] ^= 0xFF
+        else:
+            count = random.integers(1, 9 if kind == "bytes" else 120)
+            frame[random.integers(0, height // 8, count), random.integers(0, width, count)] ^= 0xA5
+        frames.append(frame)
+    return SSD1306(width, height, chained_control=draw(st.booleans())), frames
+
+
+@given(walks())
+def test_every_frame_arrives_by_the_datasheets_rules(package, walk):
+    controller, frames = walk
+    glass = Glass(controller)
+    for frame in frames:
+        glass.send(frame)
+        np.testing.assert_array_equal(glass.ram, frame)
+    assert glass.chip.violations == []
+
+
+def test_the_first_plan_assumes_nothing_of_the_ram(package):
+    glass = Glass()
+    glass.send(np.zeros_like(glass.planner.fresh))
+    assert not glass.ram.any()
+
+
+@pytest.mark.parametrize("lose", ["forget", "restart"])
+def test_a_planner_that_knows_nothing_sends_everything(package, lose):
+    glass, frame = blank()
+    glass.chip.power_cycle()
+    glass.chip.write(b"\x00" + glass.controller.init)
+    getattr(glass.planner, lose)()
+    glass.send(frame)
+    assert not glass.ram.any()
+
+
+# -- Few bytes
+
+
+def test_nothing_changed_is_no_message(package):
+    glass, frame = blank()
+    assert glass.send(frame) == []
+
+
+def test_one_pixel_is_eight_bytes(package):
+    glass, frame = blank(SSD1306())
+    frame[7, 100] = 1
+    glass.send(frame)  # the chip is in page mode from here
+    frame[2, 38] = 0x10
+    assert glass.send(frame) == [(COMMAND, b"\xb2\x06\x12"), (DATA, b"\x10")]
+
+
+@pytest.mark.parametrize(
+    ("change", "commands"),
+    [((7, 101), None), ((6, 101), b"\xb6"), ((7, 99), b"\x03"), ((7, 117), b"\x17"), ((3, 97), b"\xb3\x01")],
+)
+def test_a_command_that_holds_is_not_sent(package, change, commands):
+    glass, frame = blank()
+    frame[7, 100] = 1
+    glass.send(frame)
+    frame[change] = 1
+    wanted = [(DATA, b"\x01")]
+    assert glass.send(frame) == ([(COMMAND, commands), *wanted] if commands else wanted)
+
+
+def test_the_pointer_wraps_into_the_first_column(package):
+    glass, frame = blank()
+    frame[4, 127] = 1
+    glass.send(frame)
+    frame[4, 0] = 1
+    assert glass.send(frame) == [(DATA, b"\x01")]
+
+
+def test_a_gap_is_sent_again_or_jumped_over_whichever_is_cheaper(package):
+    for gap, size in [(3, 3), (5, 5), (6, 5), (16, 5), (17, 6)]:
+        glass, frame = blank(SSD1306())
+        frame[1, 0] = 1
+        glass.send(frame)
+        frame[3, 0] = frame[3, 1 + gap] = 1
+        assert glass.cost(frame) == (2 + 2) + (2 + 1) + size + 1
+
+
+def test_a_window_sent_again_needs_no_command(package):
+    glass, frame = blank()
+    frame[2:6, 40:60] = 1
+    glass.send(frame)
+    for value in (2, 3):
+        frame[2:6, 40:60] = value
+        assert [kind for kind, _ in glass.send(frame)] == [DATA]
+
+
+def test_of_a_windows_two_commands_only_the_one_that_changes_is_sent(package):
+    glass, frame = blank()
+    for value, left, commands in ((1, 40, None), (2, 60, b"\x21\x3c\x45"), (3, 20, b"\x21\x14\x1d")):
+        frame[2:7, left : left + 10] = value
+        messages = glass.send(frame)
+        if commands:
+            assert messages[0] == (COMMAND, commands)
+    assert glass.chip.violations == []
+
+
+def test_chained_control_bytes_only_where_the_chip_takes_them(package):
+    for chained, cost in ((False, 6), (True, 5)):
+        glass, frame = blank(SSD1306(chained_control=chained))
+        frame[7, 100] = 1
+        glass.send(frame)
+        frame[6, 101] = 1
+        assert glass.cost(frame) == cost
+        np.testing.assert_array_equal(glass.ram, frame)
+
+
+@given(walks())
+def test_never_worse_than_the_page_pointer_or_one_bounding_window(package, walk):
+    """Each step of its own: the same frame before, the same pointer."""
+    controller, frames = walk
+    before = np.zeros((controller.height // 8, controller.width), np.uint8)
+    for frame in frames:
+        changed = np.argwhere(frame != before)
+        if not changed.size:
+            continue
+        glass, _ = blank(controller)
+        glass.send(before)
+        windowed = glass.chip.registers.mode != 2
+        cost = glass.cost(frame)
+        box = np.ptp(changed, axis=0) + 1
+        assert cost <= 2 + 6 + 2 * (not windowed) + 2 + box[0] * box[1]
+        runs = sum(_page_cost(np.unique(changed[changed[:, 0] == page, 1])) for page in np.unique(changed[:, 0]))
+        assert cost <= runs + 2 * windowed
+        before = frame
+
+
+def _page_cost(columns):
+    """One page by itself: every run addressed in full, gaps sent along where that is cheaper."""
+    gaps = np.diff(columns) - 1
+    return 7 + len(columns) + sum(min(gap, 7) for gap in gaps)
+
+
+# -- Fewest
+
+
+@st.composite
+def small_updates(draw):
+    """A panel small enough for an exhaustive search, where its pointer is, and what changed."""
+    left, width, beyond = draw(st.sampled_from([0, 2, 10])), draw(st.integers(8, 36)), draw(st.sampled_from([0, 0, 3]))
+    pages = draw(st.integers(1, 3))
+    controller = Controller(
+        name="small",
+        width=width,
+        height=8 * pages,
+        init=b"",
+        ram_width=left + width + beyond,
+        ram_height=8 * pages,
+        column_offset=left,
+        column_wraps=draw(st.booleans()),
+        chained_control=draw(st.booleans()),
+    )
+    cells = st.tuples(st.integers(0, pages - 1), st.integers(0, width - 1))
+    return controller, draw(cells), draw(st.sets(cells, min_size=1, max_size=6))
+
+
+@settings(max_examples=100)
+@given(small_updates())
+def test_the_page_pointers_plan_is_the_cheapest_there_is(update):
+    _assert_cheapest(update, I2C)
+
+
+@settings(max_examples=50)
+@given(small_updates(), st.builds(Cost, st.integers(1, 5), st.integers(1, 5), st.none()))
+def test_on_other_wires_too(update, cost):
+    _assert_cheapest(update, cost)
+
+
+def _assert_cheapest(update, cost):
+    controller, (page, column), cells = update
+    planner = importlib.import_module("paneldraw.update").Planner(controller, cost)
+    planner.restart()
+    planner.plan()
+    planner.sent()
+    planner.fresh[page, column] += 1
+    planner.plan()
+    planner.sent()
+    pointer = controller.column_offset + column + 1
+    if pointer == controller.ram_width:
+        assume(controller.column_wraps)
+        pointer = 0
+    for cell in cells:
+        planner.fresh[cell] += 1
+    wanted = {(page, controller.column_offset + column) for page, column in cells}
+    assert planner.plan().cost == cheapest(controller, cost, wanted, page, pointer)
+
+
+def test_more_pieces_than_the_exact_search_takes_still_beat_page_by_page():
+    """Two columns of single bytes: down one and up the other is shorter than left and right in every page."""
+    glass, frame = blank(SSD1306())
+    frame[0, 0] = 1
+    glass.send(frame)
+    frame[:, 21] = frame[:, 70] = np.arange(1, 9)
+    assert glass.planner.fresh.shape == (8, 128)
+    assert glass.cost(frame) < 8 * (2 + 3 + 2 + 1) + 8 * (2 + 2 + 2 + 1)
+    np.testing.assert_array_equal(glass.ram, frame)

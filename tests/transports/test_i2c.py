@@ -1,0 +1,268 @@
+"""The I2C transport on the real smbus2, whose kernel is played here: no call below smbus2 reaches the system."""
+
+from __future__ import annotations
+
+import ctypes
+import errno
+import os
+
+import numpy as np
+import pytest
+import smbus2
+from smbus2 import i2c_msg
+
+from paneldraw import Panel, simulator
+from paneldraw.controllers import SSD1306
+from paneldraw.errors import (
+    PanelBusyError,
+    PanelDisconnectedError,
+    PanelError,
+    PanelNotFoundError,
+    PanelPermissionError,
+    PanelTimeoutError,
+    TransportError,
+)
+from paneldraw.transports import COMMAND, DATA, I2CTransport, Plan
+
+DESCRIPTOR = 4711
+
+
+class Kernel:
+    """What smbus2 calls of os and fcntl, over a simulated bus; counts calls and keeps what went over the wire."""
+
+    O_RDWR = os.O_RDWR
+
+    def __init__(self, devices):
+        self.bus = simulator.I2CBus(devices)
+        self.files = {"/dev/i2c-1", "/dev/i2c-77"}
+        self.open_error = None
+        self.opened = []
+        self.calls = []
+        self.stop_after = None
+
+    def open(self, path, flags):
+        if self.open_error:
+            raise OSError(self.open_error, os.strerror(self.open_error))
+        if path not in self.files:
+            raise FileNotFoundError(errno.ENOENT, "No such file or directory")
+        self.opened.append(path)
+        return DESCRIPTOR
+
+    def close(self, descriptor):
+        assert descriptor == DESCRIPTOR
+        self.opened.pop()
+
+    def ioctl(self, descriptor, request, argument):
+        assert descriptor == DESCRIPTOR
+        if request != smbus2.smbus2.I2C_RDWR:
+            return 0
+        messages = [argument.msgs[i] for i in range(argument.nmsgs)]
+        self.calls.append([(m.flags, ctypes.string_at(m.buf, m.len)) for m in messages])
+        if self.stop_after is not None:
+            messages = messages[: self.stop_after]
+        self.bus.i2c_rdwr(*messages)
+        return len(messages)
+
+
+@pytest.fixture
+def chip():
+    return simulator.SSD1306(128, 64)
+
+
+@pytest.fixture
+def kernel(chip, monkeypatch):
+    kernel = Kernel({0x3C: chip})
+    monkeypatch.setattr(smbus2.smbus2, "os", kernel)
+    monkeypatch.setattr(smbus2.smbus2, "ioctl", kernel.ioctl)
+    return kernel
+
+
+def plan_of(*messages):
+    plan = Plan(sum(len(payload) + 1 for _, payload in messages), len(messages))
+    end = 0
+    for kind, payload in messages:
+        plan.starts[plan.count], plan.stops[plan.count] = end, end + 1 + len(payload)
+        plan.buffer[end] = kind
+        plan.buffer[end + 1 : end + 1 + len(payload)] = np.frombuffer(payload, np.uint8)
+        plan.count += 1
+        plan.cost += 2 + len(payload)
+        end += 1 + len(payload)
+    return plan
+
+
+@pytest.mark.parametrize("bus", [1, "/dev/i2c-1"])
+def test_a_bus_by_number_or_path(kernel, bus):
+    transport = I2CTransport(bus)
+    assert kernel.opened == ["/dev/i2c-1"]
+    transport.close()
+    transport.close()
+    assert kernel.opened == []
+
+
+def test_messages_as_the_wire_has_them(kernel):
+    transport = I2CTransport(1)
+    assert transport.command(b"\xa5\xaf") == 4
+    assert transport.data(b"\x01") == 3
+    plan = plan_of((COMMAND, b"\xb3\x05\x10"), (DATA, b"\xff"))
+    assert transport.batch(plan) == 8
+    assert kernel.calls == [
+        [(0, b"\x00\xa5\xaf")],
+        [(0, b"\x40\x01")],
+        [(0, b"\x00\xb3\x05\x10"), (0, b"\x40\xff")],
+    ]
+    assert [(kind, bytes(payload)) for kind, payload in plan] == [(COMMAND, b"\xb3\x05\x10"), (DATA, b"\xff")]
+
+
+def test_an_object_with_smbus2s_interface_stays_the_callers(chip):
+    bus = simulator.I2CBus({0x3C: chip})
+    transport = I2CTransport(bus)
+    transport.close()
+    transport.command(b"\x81\x10")
+    assert chip.contrast == 0x10
+
+
+def test_a_picture_through_the_real_smbus2(kernel, chip):
+    picture = np.random.default_rng(7).integers(0, 2, (64, 128), np.uint8)
+    with Panel(SSD1306(), I2CTransport(1)) as panel:
+        panel.show(picture)
+        np.testing.assert_array_equal(chip.pixels, picture)
+        before = kernel.bus.bytes
+        picture[33, 100] ^= 1
+        report = panel.show(picture)
+        assert report.wire_bytes == kernel.bus.bytes - before
+    np.testing.assert_array_equal(chip.pixels, picture)
+    assert chip.violations == []
+
+
+def test_more_messages_than_a_call_takes(kernel):
+    messages = [(DATA, bytes((i,))) for i in range(100)]
+    I2CTransport(1).batch(plan_of(*messages))
+    assert [len(call) for call in kernel.calls] == [42, 42, 16]
+    assert [payload for call in kernel.calls for _, payload in call] == [b"\x40" + payload for _, payload in messages]
+
+
+@pytest.mark.parametrize("length", [8191, 8192, 65536, 65537])
+def test_more_bytes_than_a_message_takes(kernel, length):
+    payload = np.random.default_rng(length).bytes(length)
+    pieces = -(-length // 8191)
+    assert I2CTransport(1).batch(plan_of((DATA, payload))) == length + 2 * pieces
+    sent = [message for call in kernel.calls for _, message in call]
+    assert len(sent) == pieces
+    assert all(message[0] == DATA and len(message) <= 8192 for message in sent)
+    assert b"".join(message[1:] for message in sent) == payload
+
+
+def test_an_adapter_with_short_messages_shows_the_same_picture(kernel, chip):
+    picture = np.random.default_rng(8).integers(0, 2, (64, 128), np.uint8)
+    Panel(SSD1306(chained_control=True), I2CTransport(1, max_message=32)).show(picture)
+    assert max(len(message) for call in kernel.calls for _, message in call) == 32
+    np.testing.assert_array_equal(chip.pixels, picture)
+
+
+@pytest.mark.parametrize("code", [errno.EREMOTEIO, errno.ENXIO])
+def test_nobody_at_the_address(kernel, code):
+    kernel.bus.devices.clear()
+    kernel.bus.fail(code, times=None)
+    with pytest.raises(PanelNotFoundError, match=r"0x3C on /dev/i2c-1.*wiring") as caught:
+        I2CTransport(1).command(b"\xaf")
+    assert caught.value.errno == code
+
+
+@pytest.mark.parametrize(("asked", "there"), [(0x3C, 0x3D), (0x3D, 0x3C)])
+def test_a_panel_at_the_other_address_is_found(kernel, chip, asked, there):
+    kernel.bus.devices = {there: chip}
+    with pytest.raises(PanelNotFoundError, match=f"found 0x{there:02X} instead"):
+        Panel(SSD1306(), I2CTransport(1, asked))
+
+
+def test_a_panel_that_answered_and_is_gone(kernel):
+    transport = I2CTransport(1)
+    transport.command(b"\xaf")
+    kernel.bus.devices.clear()
+    with pytest.raises(PanelDisconnectedError):
+        transport.command(b"\xaf")
+
+
+@pytest.mark.parametrize(
+    ("code", "kind", "transient", "advice"),
+    [
+        (errno.EAGAIN, PanelBusyError, True, "master"),
+        (errno.EBUSY, PanelBusyError, True, "master"),
+        (errno.ETIMEDOUT, PanelTimeoutError, True, "pull-up"),
+        (errno.EOPNOTSUPP, TransportError, False, "max_message"),
+        (errno.ENODEV, PanelDisconnectedError, False, "adapter"),
+        (errno.EIO, TransportError, False, "wiring"),
+    ],
+)
+def test_what_linux_says_and_what_to_do(kernel, code, kind, transient, advice):
+    transport = I2CTransport(1)
+    kernel.bus.fail(code)
+    with pytest.raises(kind, match=advice) as caught:
+        transport.command(b"\xaf")
+    assert caught.value.errno == code
+    assert caught.value.transient == transient
+    assert isinstance(caught.value, PanelError)
+    assert isinstance(caught.value, OSError)
+
+
+def test_a_transfer_that_stops_early_is_noticed(kernel):
+    transport = I2CTransport(1)
+    kernel.stop_after = 1
+    with pytest.raises(TransportError, match="only 1 of 2 messages"):
+        transport.batch(plan_of((COMMAND, b"\xb0"), (DATA, b"\x00")))
+
+
+@pytest.mark.parametrize(
+    ("code", "kind", "advice"),
+    [
+        (errno.EACCES, PanelPermissionError, "group i2c"),
+        (errno.EPERM, PanelPermissionError, "group i2c"),
+        (errno.ENOENT, PanelNotFoundError, "enable I2C"),
+        (errno.ENXIO, PanelNotFoundError, "enable I2C"),
+        (errno.EMFILE, TransportError, "Too many open files"),
+    ],
+)
+def test_a_bus_that_does_not_open(kernel, code, kind, advice):
+    kernel.open_error = code
+    with pytest.raises(kind, match=advice) as caught:
+        I2CTransport(3)
+    assert "/dev/i2c-3" in str(caught.value)
+    assert caught.value.errno == code
+
+
+def test_a_closed_transport_says_so(kernel):
+    transport = I2CTransport(1)
+    transport.close()
+    with pytest.raises(TransportError, match="closed"):
+        transport.command(b"\xaf")
+
+
+@pytest.mark.parametrize("bus", [None, 1.0, True, object()])
+def test_what_is_no_bus(bus):
+    with pytest.raises(TypeError, match="bus must be"):
+        I2CTransport(bus)
+
+
+def test_arguments_out_of_range():
+    bus = simulator.I2CBus()
+    with pytest.raises(ValueError, match="bus must be 0 or more"):
+        I2CTransport(-1)
+    for address in (0x07, 0x78, 0x13C):
+        with pytest.raises(ValueError, match="address must be"):
+            I2CTransport(bus, address)
+    with pytest.raises(TypeError, match="address must be"):
+        I2CTransport(bus, "0x3C")
+    for max_message in (1, 8193):
+        with pytest.raises(ValueError, match="max_message must be"):
+            I2CTransport(bus, max_message=max_message)
+
+
+def test_messages_are_smbus2s_own(chip):
+    seen = []
+
+    class Bus:
+        def i2c_rdwr(self, *messages):
+            seen.extend((type(message), bytes(message)) for message in messages)
+
+    I2CTransport(Bus()).batch(plan_of((COMMAND, b"\xb0"), (DATA, b"\x01\x02")))
+    assert seen == [(i2c_msg, b"\x00\xb0"), (i2c_msg, b"\x40\x01\x02")]
