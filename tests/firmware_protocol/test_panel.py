@@ -10,31 +10,10 @@ import pytest
 from emulated import HZ, Board, BoardPort, built
 from simulated import SimulatedPort
 
-from firmware_protocol import HostLink, PanelFaultError
 from paneldraw import Panel, simulator
 from paneldraw.controllers import SSD1306
-from paneldraw.transports.base import DATA, Cost, Plan
-
-
-class LinkTransport:
-    """As little as a panel needs of a link."""
-
-    cost = Cost(command=1, data=1)
-
-    def __init__(self, link: HostLink) -> None:
-        self.link = link
-
-    def command(self, payload: bytes) -> int:
-        return self.link.write([(False, payload)], end=False)
-
-    def data(self, payload: bytes) -> int:
-        return self.link.write([(True, payload)], end=False)
-
-    def batch(self, plan: Plan) -> int:
-        return self.link.write((kind == DATA, payload) for kind, payload in plan)
-
-    def close(self) -> None:
-        self.link.close()
+from paneldraw.errors import PanelDisconnectedError
+from paneldraw.transports import SerialTransport
 
 
 @pytest.fixture(scope="module")
@@ -71,11 +50,10 @@ def test_pictures_by_the_emulated_chip(board: Board) -> None:
     port = BoardPort(board)
     chip = simulator.SSD1306(128, 64)
     port.panel = chip.write
-    link = HostLink(port, clock=port.clock)
-    with Panel(SSD1306(128, 64), LinkTransport(link)) as panel:
+    with Panel(SSD1306(128, 64), SerialTransport(port, clock=port.clock)) as panel:
         checked(panel, port, chip)
         board.panel(absent=True)
-        with pytest.raises(PanelFaultError):
+        with pytest.raises(PanelDisconnectedError, match="wiring"):
             draw(panel, 1)
         board.panel()
         chip.power_cycle()
@@ -87,6 +65,53 @@ def test_pictures_by_the_reference_device() -> None:
     port = SimulatedPort()
     chip = simulator.SSD1306(128, 64)
     port.panel = chip.write
-    link = HostLink(port, clock=port.clock)
-    with Panel(SSD1306(128, 64), LinkTransport(link)) as panel:
+    with Panel(SSD1306(128, 64), SerialTransport(port, clock=port.clock)) as panel:
         checked(panel, port, chip)
+
+
+def test_a_pixel_and_nothing_by_the_emulated_chip(board: Board) -> None:
+    port = BoardPort(board)
+    chip = simulator.SSD1306(128, 64)
+    port.panel = chip.write
+    with Panel(SSD1306(128, 64), SerialTransport(port, 500_000, clock=port.clock)) as panel:
+        draw(panel, 0)
+        for x, y in ((0, 0), (127, 63), (64, 31)):
+            with panel.frame(clear=False) as fb:
+                fb.pixel(x, y, 1, op="xor")
+            assert panel.show(fb).unchanged
+        before, start = panel.stats.wire_bytes, port.clock()
+        with panel.frame(clear=False) as fb:
+            fb.pixel(90, 45, 1, op="xor")
+        assert panel.stats.wire_bytes - before <= 13
+        assert port.clock() - start < 0.0015  # the board's time, not this machine's
+        port.read()
+        np.testing.assert_array_equal(chip.pixels, fb.pixels)
+
+
+@pytest.mark.parametrize("fault", ["reset", "power", "watchdog"])
+def test_a_restart_in_the_middle_of_a_picture_of_the_emulated_chip(board: Board, fault: str) -> None:
+    port = BoardPort(board)
+    chip = simulator.SSD1306(128, 64)
+    left = [-1]
+
+    def restarting(content: bytes) -> None:
+        left[0] -= 1
+        if left[0] == 0:
+            if fault == "watchdog":
+                board.hang()
+            else:
+                board.reset(power=fault == "power")
+                chip.power_cycle()
+        else:
+            chip.write(content)
+
+    port.panel = restarting
+    noise = np.random.default_rng(1).integers(0, 2, (64, 128), np.uint8)
+    with Panel(SSD1306(128, 64), SerialTransport(port, 115_200, clock=port.clock)) as panel:
+        panel.show(noise)
+        left[0] = 3
+        panel.show(1 - noise)
+        port.read()
+        np.testing.assert_array_equal(chip.pixels, 1 - noise)
+        assert panel.stats.retries == 1
+    assert left[0] < 0

@@ -5,15 +5,14 @@ from __future__ import annotations
 import errno
 import os
 import random
-import select
 import threading
 from pathlib import Path
 
 import pytest
-from simulated import Noise, PagePanel, whole
+from far_ends import Board, serial
+from simulated import Noise, whole
 
 from firmware_protocol import (
-    Device,
     DeviceResetError,
     HostLink,
     LinkLostError,
@@ -21,48 +20,6 @@ from firmware_protocol import (
     PanelFaultError,
     SMBusWriter,
 )
-
-serial = pytest.importorskip("serial", reason="pyserial is not installed")
-pty = pytest.importorskip("pty", reason="no pseudo-terminals here")
-tty = pytest.importorskip("tty", reason="no pseudo-terminals here")
-
-
-class Board:
-    """A device behind a pseudo-terminal that hangs at ``path``, with a noisy line."""
-
-    def __init__(self, path: Path, noise: Noise | None = None) -> None:
-        self.path = path
-        self.noise = noise or Noise()
-        self.rng = random.Random(7)
-        self.panel = PagePanel()
-        self.device = Device(self.panel)
-        self.plug_in()
-
-    def plug_in(self) -> None:
-        self.far, near = pty.openpty()
-        tty.setraw(near)
-        self.path.unlink(missing_ok=True)
-        self.path.symlink_to(os.ttyname(near))
-        self.near = near
-        self.quit, self.tell = os.pipe()
-        self.thread = threading.Thread(target=self.run, daemon=True)
-        self.thread.start()
-
-    def pull_out(self) -> None:
-        os.write(self.tell, b"q")
-        self.thread.join()
-        self.path.unlink()
-        for handle in (self.far, self.near, self.quit, self.tell):
-            os.close(handle)
-
-    def run(self) -> None:
-        self.say(self.device.reset(1))
-        while self.quit not in (ready := select.select([self.far, self.quit], [], [])[0]):
-            assert ready == [self.far]
-            self.say(self.device.receive(self.noise(os.read(self.far, 4096), self.rng)))
-
-    def say(self, data: bytes) -> None:
-        os.write(self.far, self.noise(data, self.rng))
 
 
 @pytest.fixture
