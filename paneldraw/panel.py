@@ -20,7 +20,7 @@ from paneldraw.controllers import Controller
 from paneldraw.controllers.packing import pack_pages
 from paneldraw.errors import PanelError, TransportError
 from paneldraw.framebuffer import Framebuffer, pictures
-from paneldraw.transports import I2CTransport, Transport
+from paneldraw.transports import I2CTransport, SerialTransport, Transport
 from paneldraw.update import Planner
 
 Levels = npt.NDArray[np.uint8]
@@ -413,16 +413,21 @@ def open_panel(url: str | None = None) -> Panel:
     ----------
     url : str, optional
         ``i2c://1/0x3c?chip=ssd1306&size=128x64&rotate=180`` is a panel on bus 1 (or ``i2c:///dev/i2c-1/0x3c``);
-        ``sim://ssd1306?size=128x64`` a simulated one, whose chip is ``panel.transport.bus.devices[0x3C]``. Parameters
-        are ``chip`` (of i2c), ``size``, ``rotate`` and ``on_close``. Default: what the environment variable
-        PANELDRAW_PANEL says, else ``sim://ssd1306``.
+        ``serial:///dev/ttyACM0?baudrate=1000000`` one behind a microcontroller, which says what it is; where a device's
+        name stands, pyserial's ``socket://host:port``, ``rfc2217://host:port`` and the like may stand, without
+        ``serial://`` too; ``sim://ssd1306?size=128x64`` a simulated one, whose chip is
+        ``panel.transport.bus.devices[0x3C]``. Parameters are ``chip`` (of i2c and serial), ``size``, ``rotate``,
+        ``on_close`` and ``baudrate`` (of serial). Default: what the environment variable PANELDRAW_PANEL says, else
+        ``sim://ssd1306``.
 
     Raises
     ------
     ValueError
         A scheme, chip, address or parameter that does not exist.
-    PanelNotFoundError, PanelPermissionError
-        The bus cannot be opened, or nobody answers at the address.
+    PanelNotFoundError, PanelPermissionError, PanelBusyError
+        The bus or port cannot be opened, or nobody answers there.
+    ProtocolError
+        The firmware behind the port is too old or too new, or has a panel of an unknown chip.
 
     Examples
     --------
@@ -431,12 +436,19 @@ def open_panel(url: str | None = None) -> Panel:
     <Panel ssd1306 128x32, rotate=0>
     """
     wanted = urls.parse(os.environ.get("PANELDRAW_PANEL") or "sim://ssd1306" if url is None else url)
-    transport = _simulated(wanted) if wanted.scheme == "sim" else I2CTransport(wanted.bus, wanted.address)
-    try:
-        return Panel(wanted.controller, transport, rotate=wanted.rotate, on_close=cast(OnClose, wanted.on_close))
-    except BaseException:
-        transport.close()
-        raise
+    transport: Transport
+    with contextlib.ExitStack() as unless_done:
+        if isinstance(wanted, urls.SerialURL):
+            transport = port = SerialTransport(wanted.port, wanted.baudrate)
+            unless_done.callback(port.close)
+            controller = wanted.controller(port.device)
+        else:
+            controller = wanted.controller
+            transport = _simulated(wanted) if wanted.scheme == "sim" else I2CTransport(wanted.bus, wanted.address)
+            unless_done.callback(transport.close)
+        panel = Panel(controller, transport, rotate=wanted.rotate, on_close=cast(OnClose, wanted.on_close))
+        unless_done.pop_all()
+    return panel
 
 
 def _simulated(wanted: urls.PanelURL) -> I2CTransport:

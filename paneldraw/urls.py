@@ -3,17 +3,24 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Final
-from urllib.parse import SplitResult, parse_qsl, urlsplit
+from typing import TYPE_CHECKING, Any, Final
+from urllib.parse import SplitResult, parse_qsl, unquote, urlencode, urlsplit
 
 from paneldraw.controllers import CHIPS, Controller
+from paneldraw.errors import ProtocolError
+
+if TYPE_CHECKING:
+    from firmware_protocol import HelloReply
 
 _CHIP: Final = "ssd1306"
 _ADDRESS: Final = 0x3C
 _FORMS: Final = {
     "i2c": "i2c://1/0x3c?chip=ssd1306&size=128x64&rotate=180",
+    "serial": "serial:///dev/ttyACM0?baudrate=1000000",
     "sim": "sim://ssd1306?size=128x64",
 }
+_PYSERIAL: Final = ("rfc2217", "socket", "loop")
+_SERIAL: Final = ("baudrate", "chip", "size", "rotate", "on_close")
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,7 +49,42 @@ class PanelURL:
     on_close: str = "keep"
 
 
-def parse(url: str) -> PanelURL:
+@dataclass(frozen=True, slots=True)
+class SerialURL:
+    """The URL of a panel on a serial port, taken apart and checked.
+
+    Attributes
+    ----------
+    port : str
+        Name of the device or URL of pyserial's.
+    baudrate : int, optional
+        Bits a second. Default: what the board likes best.
+    query : dict
+        The parameters of the panel, as they stand in the URL.
+    rotate : int
+    on_close : str
+        As in `PanelURL`.
+    """
+
+    port: str
+    baudrate: int | None
+    query: dict[str, str]
+    rotate: int = 0
+    on_close: str = "keep"
+
+    def controller(self, device: HelloReply) -> Controller:
+        """Return the controller that the URL names or, where it names none, that the board says it has."""
+        chip = self.query.get("chip", device.controller)
+        if not chip:
+            raise ValueError(f"url must say which chip=, such as {_CHIP}: the board on {self.port} does not know it")
+        if "chip" not in self.query and chip.lower() not in CHIPS:
+            advice = f"update paneldraw, or add chip= to the URL with one of {', '.join(CHIPS)}"
+            raise ProtocolError(f"the board on {self.port} has a panel of a chip {chip} that is not known: {advice}")
+        size = {"size": f"{device.width}x{device.height}"} if device.width and device.height else {}
+        return _controller(chip, size | self.query)
+
+
+def parse(url: str) -> PanelURL | SerialURL:
     """Take a URL apart.
 
     Raises
@@ -56,12 +98,16 @@ def parse(url: str) -> PanelURL:
     --------
     >>> parse("i2c://1/0x3d?size=128x32").controller.height
     32
+    >>> parse("serial://COM3?baudrate=500000").port
+    'COM3'
     """
     if not isinstance(url, str):
         raise TypeError(f"url must be a str, not {type(url).__name__}")
     parts = urlsplit(url)
     if parts.scheme == "i2c":
         return _i2c(parts)
+    if parts.scheme == "serial" or parts.scheme in _PYSERIAL:
+        return _serial(parts)
     if parts.scheme == "sim":
         query = _query(parts, "size", "rotate", "on_close")
         if parts.path.strip("/"):
@@ -85,6 +131,26 @@ def _i2c(parts: SplitResult) -> PanelURL:
         address=_number(address, "address") if address else _ADDRESS,
         **_settings(query),
     )
+
+
+def _serial(parts: SplitResult) -> SerialURL:
+    place = parts.netloc + parts.path
+    if parts.scheme != "serial":
+        place = f"{parts.scheme}://{place}"
+    if not place:
+        raise ValueError(f"url must have the form {_FORMS['serial']}, not {parts.geturl()!r}")
+    if "://" in place:
+        pairs = parse_qsl(parts.query, keep_blank_values=True)
+        others = urlencode([pair for pair in pairs if pair[0] not in _SERIAL])  # they are pyserial's
+        place += f"?{others}" if others else ""
+        parts = parts._replace(query=urlencode([pair for pair in pairs if pair[0] in _SERIAL]))
+    else:
+        place = unquote(place)
+    query = _query(parts, *_SERIAL)
+    if "chip" in query:
+        _controller(query["chip"], {name: query[name] for name in ("size",) if name in query})
+    rate = _number(query["baudrate"], "baudrate") if "baudrate" in query else None
+    return SerialURL(place, rate, query, **_settings(query))
 
 
 def _query(parts: SplitResult, *known: str) -> dict[str, str]:

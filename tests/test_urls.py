@@ -2,8 +2,10 @@ from __future__ import annotations
 
 import pytest
 
+from firmware_protocol import HelloReply
 from paneldraw import urls
 from paneldraw.controllers import SSD1306
+from paneldraw.errors import ProtocolError
 
 
 @pytest.mark.parametrize(
@@ -28,6 +30,49 @@ def test_what_a_url_asks_for(url, wanted):
 
 
 @pytest.mark.parametrize(
+    ("url", "port", "rest"),
+    [
+        ("serial:///dev/ttyACM0", "/dev/ttyACM0", {}),
+        ("serial:///dev/serial/by-id/usb%20a", "/dev/serial/by-id/usb a", {}),
+        ("serial://COM3?baudrate=1000000", "COM3", {"baudrate": 1_000_000}),
+        ("serial:///dev/ttyS0?rotate=90&on_close=off", "/dev/ttyS0", {"rotate": 90, "on_close": "off"}),
+        ("socket://Pi:7000", "socket://Pi:7000", {}),
+        ("loop://", "loop://", {}),
+        ("serial://rfc2217://pi:2217?ign_set_control&baudrate=115200", "rfc2217://pi:2217?ign_set_control=", None),
+    ],
+)
+def test_what_a_serial_url_asks_for(url, port, rest):
+    wanted = urls.parse(url)
+    assert wanted.port == port
+    if rest is None:
+        assert wanted.baudrate == 115_200
+    else:
+        found = {"baudrate": wanted.baudrate, "rotate": wanted.rotate, "on_close": wanted.on_close}
+        assert found == {"baudrate": None, "rotate": 0, "on_close": "keep", **rest}
+
+
+@pytest.mark.parametrize(
+    ("url", "controller"),
+    [
+        ("serial://COM3", SSD1306(128, 32)),
+        ("serial://COM3?size=96x16", SSD1306(96, 16)),
+        ("serial://COM3?chip=SSD1306", SSD1306(128, 32)),
+    ],
+)
+def test_the_board_says_what_the_url_does_not(url, controller):
+    device = HelloReply(0, controller="ssd1306", width=128, height=32)
+    assert urls.parse(url).controller(device) == controller
+
+
+def test_a_board_that_knows_nothing_of_its_panel():
+    with pytest.raises(ValueError, match=r"url must say which chip=.*COM3"):
+        urls.parse("serial://COM3").controller(HelloReply(0))
+    assert urls.parse("serial://COM3?chip=ssd1306").controller(HelloReply(0)) == SSD1306()
+    with pytest.raises(ProtocolError, match=r"chip ssd0303 .* add chip= to the URL with one of ssd1306"):
+        urls.parse("serial://COM3").controller(HelloReply(0, controller="ssd0303", width=96, height=16))
+
+
+@pytest.mark.parametrize(
     ("url", "complaint"),
     [
         ("", "i2c://.*sim://"),
@@ -45,6 +90,12 @@ def test_what_a_url_asks_for(url, wanted):
         ("sim://ssd1306/0x3c", "sim://ssd1306"),
         ("sim://ssd1306?chip=ssd1306", "no parameters but size, rotate, on_close"),
         ("sim://ssd1307", "chip must be one of ssd1306"),
+        ("serial://", "serial:///dev/ttyACM0"),
+        ("serial://COM3?baudrate=fast", "baudrate must be a whole number"),
+        ("serial://COM3?chip=ssd1307", "chip must be one of ssd1306"),
+        ("serial://COM3?chip=ssd1306&size=3x3", "128x64, 128x32"),
+        ("serial://COM3?speed=1", "no parameters but baudrate, chip, size, rotate, on_close"),
+        ("socket://pi:7000?size=1x1&size=2x2", "each parameter once"),
     ],
 )
 def test_what_a_url_cannot_say(url, complaint):

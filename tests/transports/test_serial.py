@@ -15,7 +15,7 @@ from far_ends import Board, Server, pty, serial, tty
 from simulated import Noise, SimulatedPort
 
 from firmware_protocol.device import UNO
-from paneldraw import Panel, simulator
+from paneldraw import Panel, open_panel, simulator
 from paneldraw.controllers import SSD1306
 from paneldraw.errors import (
     PanelBusyError,
@@ -150,6 +150,39 @@ def test_a_port_of_the_callers(chip):
     assert not port.is_open
     with pytest.raises(TransportError, match="closed"):
         transport.command(b"\xaf")
+
+
+def test_a_url_opens_what_the_board_says_it_has(path, monkeypatch):
+    small = simulator.SSD1306(96, 16)
+    board = Board(path, panel=small.write, profile=replace(UNO, width=96, height=16))
+    url = f"serial://{path}?baudrate=250000&rotate=180"
+    with open_panel(url) as panel:
+        assert (panel.width, panel.height, panel.transport.baudrate) == (96, 16, 250_000)
+        panel.show(NOISE[:16, :96])
+        np.testing.assert_array_equal(small.pixels, NOISE[:16, :96][::-1, ::-1])
+    monkeypatch.setenv("PANELDRAW_PANEL", f"serial://{path}?rotate=90")
+    with open_panel() as panel:
+        assert (panel.width, panel.height) == (16, 96)
+    board.pull_out()
+
+
+@pytest.mark.parametrize("scheme", ["", "serial://"])
+def test_a_url_of_pyserials(chip, scheme):
+    server = Server(False, chip.write)
+    with open_panel(f"{scheme}{server.url}?rotate=180") as panel:
+        panel.show(NOISE)
+        np.testing.assert_array_equal(chip.pixels, NOISE[::-1, ::-1])
+    server.close()
+
+
+def test_a_url_that_fails_leaves_the_port_free(path):
+    board = Board(path, profile=replace(UNO, controller="ssd9999"))
+    before = handles()
+    for url, kind in (("", ProtocolError), ("?chip=ssd1306&rotate=45", ValueError)):
+        with pytest.raises(kind):
+            open_panel(f"serial://{path}{url}")
+    assert handles() == before
+    board.pull_out()
 
 
 # Faults on the way
