@@ -109,6 +109,12 @@ def test_a_planner_that_knows_nothing_sends_everything(package, lose):
 # -- Few bytes
 
 
+def test_a_plan_counts_in_plain_numbers(package):
+    glass, _ = blank()
+    plan = glass.planner.plan()
+    assert {type(number) for number in (plan.count, plan.cost, plan.changed)} == {int}
+
+
 def test_nothing_changed_is_no_message(package):
     glass, frame = blank()
     assert glass.send(frame) == []

@@ -121,7 +121,7 @@ class Planner:
         plan.changed = self._find_pieces()
         if self._count > 0:
             self._choose()
-        plan.count, plan.cost = self._writer.messages, self._writer.total
+        plan.count, plan.cost = int(self._writer.messages), int(self._writer.total)
         return plan
 
     def sent(self) -> None:
