@@ -41,6 +41,9 @@ FAR = cython.declare(cython.longlong, 1 << 62)
 # Pixels that are handled in 256ths in 64-bit arithmetic.
 FIXED_REACH = cython.declare(cython.longlong, 1 << 18)
 
+# Dashes longer than any path, in 256ths.
+_ENDLESS = 1 << 100
+
 _ALIASED = Supersample(1)
 _WEIGHED = Supersample(SAMPLES)
 
@@ -118,6 +121,8 @@ def in_turn(name: str, source: Any) -> list[Any]:
         items = list(items)
         if items and isinstance(items[0], (list, tuple, np.ndarray)):
             items = [number for x, y in items for number in (x, y)]
+        if items and isinstance(items[0], (list, tuple, np.ndarray)):
+            raise ValueError
     except (TypeError, ValueError):
         raise ValueError(f"{name} must hold points (x, y), as an array of shape (n, 2) or x and y in turn") from None
     if len(items) % 2:
@@ -210,7 +215,14 @@ def dash_lengths(dash: Any) -> list[Int]:
         raise TypeError(f"dash must be a sequence of lengths in pixels, such as (4, 2), not {dash!r}") from None
     if not lengths or min(lengths) < 256:
         raise ValueError(f"dash must hold lengths of 1 pixel or more, drawn and left out in turn, not {dash!r}")
+    lengths = [min(length, _ENDLESS) for length in lengths]
     return lengths if len(lengths) % 2 == 0 else lengths + lengths
+
+
+def dash_steps(lengths: list[Int]) -> NDArray[np.int64]:
+    """The lengths of a pattern in whole pixels; those longer than any path that is near are cut to what C holds."""
+    longest = (1 << 62) // max(len(lengths), 1)
+    return np.array([min((length + 128) >> 8, longest) for length in lengths], np.int64)
 
 
 def line_width(width: Any) -> int:

@@ -6,13 +6,13 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import cython
-import numpy as np
 
 from paneldraw.framebuffer.arguments import (
     LARGEST,
     as_samples,
     choice,
     dash_lengths,
+    dash_steps,
     integers,
     line_width,
     not_negative,
@@ -114,7 +114,7 @@ class Lines(Paths):
             Thickness in pixels, above 0.
         cap : {"square", "butt", "round"}
             Whether a thick line reaches half a width beyond its end points, ends there, or ends in half a disc (a
-            polygon within a 512th of a pixel of it). An aliased line of width 1 has no caps.
+            polygon within a 256th of a pixel of it). An aliased line of width 1 has no caps.
         dash : iterable of int or float, optional
             Lengths in pixels, each 1 or more, drawn and left out in turn from where the line begins. An aliased line
             of width 1 counts pixels; others measure along the line, and their dashes are cut square.
@@ -266,7 +266,7 @@ class Lines(Paths):
             for x1, y1, x2, y2 in rows.tolist():
                 self.line(x1, y1, x2, y2, c, op=op, **style)
             return
-        lengths = np.array([(length + 128) >> 8 for length in pattern], np.int64)
+        lengths = dash_steps(pattern)
         if thin:
             self._thin_lines(numbers, lengths, dda)
         else:

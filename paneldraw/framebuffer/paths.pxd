@@ -20,5 +20,13 @@ cdef class Paths:
         self, long long *points, Py_ssize_t *ends, Py_ssize_t contours, bint nonzero, object antialias
     )
     cdef object _add_stroke(
-        self, Contours contours, Points path, bint closed, double width, int cap, int join, object dash
+        self,
+        Contours contours,
+        Points path,
+        bint closed,
+        double width,
+        int cap,
+        int join,
+        object dash,
+        object distance,
     )

@@ -9,7 +9,7 @@ from typing import Any
 import cython
 import numpy as np
 
-from paneldraw.framebuffer.arguments import LARGEST, as_samples, choice, size
+from paneldraw.framebuffer.arguments import LARGEST, as_samples, choice, dash_steps, size
 from paneldraw.raster.far import cut_path, pairs
 from paneldraw.raster.surface import OPS
 
@@ -91,8 +91,9 @@ class Paths:
     @cython.cfunc
     def _thin_path(self, path: Points, closed: cython.bint, dash: Any, dda: cython.bint) -> Any:
         """Aliased lines of width 1 from point to point, each a whole pixel, as one shape."""
-        lengths = np.array([(length + 128) >> 8 for length in dash], np.int64)
+        pattern = [(length + 128) >> 8 for length in dash]
         if path.exact is None:
+            lengths = dash_steps(dash)
             outline = Polyline()
             outline.points = path.values
             outline.count = path.count
@@ -114,7 +115,7 @@ class Paths:
         marks.dip(1, 0)
         phase = 0
         for (x1, y1), (x2, y2) in pairwise(points):
-            far(marks, x1, y1, x2, y2, lengths.tolist(), phase)
+            far(marks, x1, y1, x2, y2, pattern, phase)
             phase += max(abs(x2 - x1), abs(y2 - y1))
         for i in np.flatnonzero(memory).tolist():
             self.surface.point(i % width, i // width)
@@ -134,10 +135,11 @@ class Paths:
         contours = Contours()
         width = min(width, FIXED_REACH * 256)
         if path.exact is None:
-            self._add_stroke(contours, path, closed, width, cap, join, dash)
+            self._add_stroke(contours, path, closed, width, cap, join, dash, 0)
         else:
-            for piece in cut_path(path.exact, closed):
-                self._add_stroke(contours, Points("points", piece, False), False, width, cap, join, dash)
+            for piece, distance in cut_path(path.exact, closed, bool(dash)):
+                shape = 0 if closed else cap
+                self._add_stroke(contours, Points("points", piece, False), False, width, shape, join, dash, distance)
         self._fill_contours(contours.points, contours.ends, contours.contours, True, antialias)
 
     @cython.cfunc
@@ -167,8 +169,9 @@ class Paths:
         cap: cython.int,
         join: cython.int,
         dash: Any,
+        distance: Any,
     ) -> Any:
-        """Add a path's stroke. A point that repeats the one before it counts once."""
+        """Add a path's stroke. A point that repeats the one before it counts once; dashes begin at `distance`."""
         i: cython.Py_ssize_t
         count: cython.Py_ssize_t = 0
         points: cython.p_double
@@ -201,4 +204,4 @@ class Paths:
         right, bottom = 256 * self.surface.right, 256 * self.surface.bottom
         margin = 4 * width + 512
         box = (left - margin, top - margin, right + margin, bottom + margin)
-        Dashes(contours, dash, box, count).stroke(points, count, width, cap, join)
+        Dashes(contours, dash, distance % sum(dash), box, count).stroke(points, count, width, cap, join)

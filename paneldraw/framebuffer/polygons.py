@@ -3,12 +3,13 @@
 
 from __future__ import annotations
 
+from math import isfinite
 from typing import TYPE_CHECKING, Any
 
 import cython
 
 from paneldraw.framebuffer.arguments import as_samples, choice, dash_lengths, in_turn, line_width, real
-from paneldraw.raster.far import cut_polygon
+from paneldraw.raster.far import cut_polygon, is_flat
 from paneldraw.raster.strokes import CAPS, JOINS
 
 if cython.compiled:
@@ -57,7 +58,7 @@ class Polygons(Lines):
             As for `line`. The dash pattern goes on around corners.
         join : {"miter", "round", "bevel"}
             How the outer side of a thick line's corner is filled: to a point, unless that lies more than 4 half widths
-            away, else like a bevel; by an arc (a polygon within a 512th of a pixel of it); or by a straight cut.
+            away, else like a bevel; by an arc (a polygon within a 256th of a pixel of it); or by a straight cut.
 
         Raises
         ------
@@ -165,6 +166,8 @@ class Polygons(Lines):
         if not (x == 0 and y == 0):
             coords = _shifted(real("x", x), real("y", y), coords)
         if fill:
+            choice("join", join, JOINS)
+            line_width(width)
             corners = Points("coords", coords, True)
             if not _is_flat(corners):
                 self._fill_polygon(corners, nonzero, self._antialias if antialias is ... else antialias)
@@ -211,7 +214,7 @@ class Polygons(Lines):
 def _is_flat(corners: Points) -> cython.bint:
     """Whether all corners lie on one line."""
     if corners.exact is not None:
-        return False
+        return is_flat(corners.exact)
     i: cython.Py_ssize_t
     p: cython.p_longlong = corners.values
     dx: cython.longlong = 0
@@ -228,4 +231,13 @@ def _is_flat(corners: Points) -> cython.bint:
 def _shifted(x: Any, y: Any, coords: Any) -> list[Any]:
     """The points `coords`, moved by (x, y)."""
     points = in_turn("coords", coords)
-    return [real("coords", number) + (y if i % 2 else x) for i, number in enumerate(points)]
+    return [_sum(real("coords", number), y if i % 2 else x) for i, number in enumerate(points)]
+
+
+def _sum(a: Any, b: Any) -> Any:
+    """a + b; where floats would overflow, of their whole parts: there is no more to such numbers."""
+    try:
+        total = a + b
+    except OverflowError:
+        return int(a) + int(b)
+    return total if isinstance(total, int) or isfinite(total) else int(a) + int(b)

@@ -12,9 +12,11 @@ from typing import Any
 import cython
 
 if cython.compiled:
-    from cython.cimports.libc.math import acos, atan2, ceil, cos, floor, fmod, hypot, sin
+    from cython.cimports.libc.math import acos, atan2, ceil, cos, fmod, hypot, rint, sin
 else:
-    from math import acos, atan2, ceil, cos, floor, fmod, hypot, sin
+    from math import acos, atan2, ceil, cos, fmod, hypot, sin
+
+    rint = round
 
 #: The number by which `stroke` knows a cap or a join.
 CAPS = {"butt": 0, "square": 1, "round": 2}
@@ -40,9 +42,13 @@ class Contours:
 
     @cython.cfunc
     def add(self, x: cython.double, y: cython.double) -> Any:
-        """Add a point to the open contour, rounded to whole 256ths."""
-        a: cython.longlong = cython.cast(cython.longlong, floor(x + 0.5))
-        b: cython.longlong = cython.cast(cython.longlong, floor(y + 0.5))
+        """Add a point to the open contour, rounded to whole 256ths.
+
+        Halves go to the even number: two points that lie symmetrically about a whole one still do so afterwards, and
+        the edge between them runs through it, where other pieces meet this one.
+        """
+        a: cython.longlong = cython.cast(cython.longlong, rint(x))
+        b: cython.longlong = cython.cast(cython.longlong, rint(y))
         if cython.compiled:
             if self.count == self.capacity:
                 self.capacity = 2 * self.capacity + 64
@@ -159,7 +165,7 @@ def _end(
         contours.add(x + uy * half, y - ux * half)
         contours.close()
     else:
-        _fan(contours, x, y, uy * half, -ux * half, PI)
+        _fan(contours, x, y, uy * half, -ux * half, -uy * half, ux * half, PI)
 
 
 @cython.cfunc
@@ -182,9 +188,9 @@ def _join(
         return
     if join == 1:
         if cross > 0:
-            _fan(contours, x, y, vy * outer, -vx * outer, atan2(cross, dot))
+            _fan(contours, x, y, vy * half, -vx * half, uy * half, -ux * half, atan2(cross, dot))
         else:
-            _fan(contours, x, y, uy * outer, -ux * outer, atan2(abs(cross), dot))
+            _fan(contours, x, y, -uy * half, ux * half, -vy * half, vx * half, atan2(abs(cross), dot))
         return
     contours.add(x, y)
     contours.add(x + vy * outer, y - vx * outer)
@@ -197,19 +203,27 @@ def _join(
 
 @cython.cfunc
 def _fan(
-    contours: Contours, x: cython.double, y: cython.double, dx: cython.double, dy: cython.double, angle: cython.double
+    contours: Contours,
+    x: cython.double,
+    y: cython.double,
+    dx: cython.double,
+    dy: cython.double,
+    ex: cython.double,
+    ey: cython.double,
+    angle: cython.double,
 ) -> Any:
-    """A circular sector from (x + dx, y + dy) clockwise; chords stay within half a 256th of the arc."""
+    """A circular sector from (x + dx, y + dy) clockwise to (x + ex, y + ey); chords are a quarter of a 256th off."""
     radius: cython.double = hypot(dx, dy)
     steps: cython.int = 1
     if radius > 0.5:
-        steps = cython.cast(cython.int, ceil(angle / (2 * acos(1 - 0.5 / radius))))
+        steps = cython.cast(cython.int, ceil(angle / (2 * acos(1 - 0.25 / radius))))
     i: cython.int
     turned: cython.double
     contours.add(x, y)
-    for i in range(steps + 1):
+    for i in range(steps):
         turned = angle * i / steps
         contours.add(x + dx * cos(turned) - dy * sin(turned), y + dx * sin(turned) + dy * cos(turned))
+    contours.add(x + ex, y + ey)
     contours.close()
 
 
@@ -219,10 +233,11 @@ class Dashes:
 
     The pattern, alternately a length that is drawn and one that is left out, starts where the stroke does and goes on
     around corners. Dashes are cut square; a cap shapes the path's own ends. Only pieces in `box` (left, top, right,
-    bottom) are made, so that the work does not grow with what cannot be seen.
+    bottom) are made, so that the work does not grow with what cannot be seen. A path that is itself a piece begins
+    at `distance` within the pattern.
     """
 
-    def __init__(self, contours: Contours, pattern: Any, box: Any, capacity: cython.Py_ssize_t) -> None:
+    def __init__(self, contours: Contours, pattern: Any, distance: Any, box: Any, capacity: cython.Py_ssize_t) -> None:
         self.contours = contours
         self.pattern = pattern
         self.left: Any
@@ -238,6 +253,7 @@ class Dashes:
             self.piece = cython.cast(cython.p_double, cython.cast(cython.p_char, self.kept))
         else:
             self.piece = [0.0] * (2 * capacity + 4)
+        self._skip(distance)
 
     @cython.cfunc
     def stroke(
