@@ -220,7 +220,7 @@ class Lines(Paths):
         if max(abs(x1), abs(y1), abs(x2), abs(y2)) <= FIXED_REACH * 256 and width <= _WIDE:
             self._rectangle(x1, y1, x2, y2, width, square, antialias)
         elif isinstance(antialias, ConeFilter):
-            for a, b, c, d in cut_path([x1, y1, x2, y2], False):
+            for (a, b, c, d), _ in cut_path([x1, y1, x2, y2], False, False):
                 self._rectangle(a, b, c, d, min(width, FIXED_REACH * 256), square, antialias)
         else:
             samples: Supersample = as_samples(antialias)

@@ -318,7 +318,7 @@ def test_sums_beyond_what_a_float_holds_draw_all_the_same(package, offset, coord
         ({"join": "mitre"}, ValueError, r"join must be one of 'miter', 'round', 'bevel', not 'mitre'"),
         ({"width": 0}, ValueError, r"width must be at least 1/256"),
         ({"width": float("nan")}, ValueError, r"width must be finite"),
-        ({"antialias": 4}, TypeError, r"antialias must be None or a Supersample"),
+        ({"antialias": 4}, TypeError, r"antialias must be None, a Supersample"),
         ({"coords": [1, 2, 3]}, ValueError, r"coords must hold an x and a y for each point, and holds 3 numbers"),
         ({"coords": [(1, 2), (3, 4, 5)]}, ValueError, r"coords must hold points \(x, y\)"),
         ({"coords": np.zeros((4, 3))}, ValueError, r"coords must hold points"),
