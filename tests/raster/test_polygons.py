@@ -127,7 +127,7 @@ def test_a_polyline_of_one_segment_is_near_the_line(package, ends, width, sample
         arguments = ends if draw == "line" else ([ends[:2], ends[2:]],)
         getattr(fb, draw)(*arguments, 200, width=width, antialias=package.Supersample(16))
         pictures.append(fb.pixels.astype(int))
-    assert np.abs(pictures[0] - pictures[1]).max() <= 200 / 12
+    assert np.abs(pictures[0] - pictures[1]).max() <= 200 / 6
 
 
 @pytest.mark.parametrize("join", ["miter", "round", "bevel"])
