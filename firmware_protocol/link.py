@@ -37,6 +37,7 @@ from firmware_protocol.messages import (
     Nak,
     Poll,
     Status,
+    cause_text,
     encode,
 )
 from firmware_protocol.runs import LEAST_PAYLOAD, Run, pack_runs, unpack_runs
@@ -410,7 +411,7 @@ class HostLink:
                 self._fault = self._fault or message.fault
                 self._go_back(message.expected)
             case Boot(cause=cause):
-                self._fail(DeviceResetError, f"the board on {self._line.name} has restarted ({_cause(cause)})")
+                self._fail(DeviceResetError, f"the board on {self._line.name} has restarted ({cause_text(cause)})")
 
     def _done(self, count: int) -> None:
         """Retire the ``count`` oldest frames; more than are under way means an old acknowledgement."""
@@ -494,8 +495,3 @@ class HostLink:
     def _fail(self, kind: type[LinkError], text: str) -> NoReturn:
         self._forget()
         raise kind(text)
-
-
-def _cause(cause: int) -> str:
-    names = ("power on", "reset pin", "brown-out", "watchdog")
-    return " and ".join(name for bit, name in enumerate(names) if cause >> bit & 1) or "cause unknown"

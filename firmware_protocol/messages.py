@@ -59,6 +59,12 @@ class PanelBus(IntEnum):
     SPI = 2
 
 
+def cause_text(cause: int) -> str:
+    """Say why a device started."""
+    names = ("power on", "reset pin", "brown-out", "watchdog")
+    return " and ".join(name for bit, name in enumerate(names) if cause >> bit & 1) or "cause unknown"
+
+
 def is_sequenced(kind: int) -> bool:
     """Return whether frames of this kind are counted, acknowledged and repeated when lost."""
     return 0x10 <= kind <= 0x1F

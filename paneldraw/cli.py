@@ -111,7 +111,7 @@ def _parser() -> argparse.ArgumentParser:
     parser = _Parser(prog="paneldraw", description="Draw on OLED, LCD and LED panels, real or simulated.")
     parser.add_argument("--version", action=_Version)
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
-    for add in (_add_demo, _add_show, _add_text, _add_detect, _add_info):
+    for add in (_add_demo, _add_show, _add_text, _add_detect, _add_info, _add_firmware):
         add(commands)
     return parser
 
@@ -344,3 +344,12 @@ def _info(options: argparse.Namespace) -> int:
     for name, value in diagnostics.info(options.panel):
         print(f"{name + ':':14}{value}")
     return 0
+
+
+# firmware
+
+
+def _add_firmware(commands: _Commands) -> None:
+    from . import cli_firmware
+
+    cli_firmware.add(commands, _positive(int), _positive(float))

@@ -134,7 +134,9 @@ def detect(url: str | None = None) -> Found:
             found.advice = NO_BUS
     else:
         raise ValueError(f"detect looks on I2C buses and on the simulated one, not on {url}; try --panel i2c://1")
-    found.lines += [f"serial port {port}: not asked" for port in serial_ports()]
+    for port in serial_ports():
+        name = port.partition(" ")[0]
+        found.lines.append(f"serial port {port}: not asked; try: paneldraw firmware info {name}")
     return found
 
 

@@ -106,7 +106,7 @@ def parse(url: str) -> PanelURL | SerialURL:
     parts = urlsplit(url)
     if parts.scheme == "i2c":
         return _i2c(parts)
-    if parts.scheme == "serial" or parts.scheme in _PYSERIAL:
+    if parts.scheme in ("serial", *_PYSERIAL):
         return _serial(parts)
     if parts.scheme == "sim":
         query = _query(parts, "size", "rotate", "on_close")
@@ -114,6 +114,18 @@ def parse(url: str) -> PanelURL | SerialURL:
             raise ValueError(f"url must have the form {_FORMS['sim']}, not {url!r}")
         return PanelURL("sim", _controller(parts.netloc or _CHIP, query), **_settings(query))
     raise ValueError(f"url must have the form {' or '.join(_FORMS.values())}, not {url!r}")
+
+
+def serial(port: str) -> SerialURL:
+    """Take a serial port apart: the name of a device, a URL of pyserial's, or a panel's serial URL.
+
+    Examples
+    --------
+    >>> serial("/dev/ttyACM0").port
+    '/dev/ttyACM0'
+    """
+    parts = urlsplit(port)
+    return _serial(parts) if parts.scheme in ("serial", *_PYSERIAL) else SerialURL(port, None, {})
 
 
 def _i2c(parts: SplitResult) -> PanelURL:

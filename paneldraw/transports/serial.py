@@ -22,7 +22,7 @@ from paneldraw.errors import (
 from paneldraw.transports.base import DATA, Cost, Plan
 
 if TYPE_CHECKING:
-    from firmware_protocol import HelloReply, HostLink, LinkError, PanelFaultError
+    from firmware_protocol import HelloReply, HostLink, LinkError, PanelFaultError, Status
     from firmware_protocol.runs import Run
 
 # A far end that has stopped reading must not hold the script for ever.
@@ -57,7 +57,7 @@ class SerialTransport:
     name : str
         The port's.
     link : firmware_protocol.HostLink
-        The session: its ``stats``, ``status()`` and ``ping()``.
+        The session, with its ``stats``.
 
     Raises
     ------
@@ -114,6 +114,11 @@ class SerialTransport:
     def baudrate(self) -> int:
         """The rate in use, bits a second."""
         return self.link.baudrate
+
+    def status(self) -> Status:
+        """Ask the board for its counters."""
+        with self._translating():
+            return self.link.status()
 
     def command(self, payload: bytes) -> int:
         """Send one command message; return the bytes on the wire."""
