@@ -151,9 +151,10 @@ class Lines(Paths):
         if antialias is None and width == 1 and dash is None and algorithm == "bresenham":
             self._thin(x1, y1, x2, y2)
             return
-        dda: cython.bint = choice("algorithm", algorithm, _ALGORITHMS)
-        as_samples(antialias)
-        wide = line_width(width)
+        dda: cython.bint = False if algorithm == "bresenham" else choice("algorithm", algorithm, _ALGORITHMS)
+        if not isinstance(antialias, Supersample):
+            as_samples(antialias)
+        wide = 256 if width == 1 else line_width(width)
         if antialias is None and wide == 256:
             self._thin_path(Points("line", (x1, y1, x2, y2), False), False, dash_lengths(dash), dda)
         elif dash is None and shape != _ROUND:
@@ -212,8 +213,9 @@ class Lines(Paths):
             cone: ConeFilter = antialias
             strip(self.surface, cone, x1 / 256.0, y1 / 256.0, x2 / 256.0, y2 / 256.0, width / 256.0, square)
         else:
-            samples: Supersample = as_samples(antialias)
-            slab(self.surface, x1, y1, x2, y2, width, square, samples.n, samples.corner)
+            samples: Supersample = antialias if isinstance(antialias, Supersample) else as_samples(antialias)
+            if not slab(self.surface, x1, y1, x2, y2, width, square, samples.n, samples.corner):
+                slab_far(self.surface, x1, y1, x2, y2, width, square, samples.n, samples.corner)
 
     @cython.cfunc
     def _thick_far(self, x1: Any, y1: Any, x2: Any, y2: Any, width: Any, square: cython.bint, antialias: Any) -> Any:

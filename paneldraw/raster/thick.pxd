@@ -1,6 +1,6 @@
 from paneldraw.raster.surface cimport Surface
 
-cdef void slab(
+cdef bint slab(
     Surface surface, long long x1, long long y1, long long x2, long long y2,
     long long width, bint square, int n, bint corner,
 ) noexcept nogil

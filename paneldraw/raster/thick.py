@@ -24,6 +24,11 @@ else:
     from paneldraw.raster.surface import Surface
 
 
+# One sub-pixel in the fixed-point numbers of `slab`, and where their range ends.
+_UNIT = cython.declare(cython.double, float(1 << 40))
+_LARGEST_BOUND = cython.declare(cython.longlong, 1 << 21)
+
+
 @cython.cfunc
 @cython.inline
 @cython.nogil
@@ -100,13 +105,13 @@ def slab(
     square: cython.bint,
     n: cython.int,
     corner: cython.bint,
-) -> cython.void:
+) -> cython.bint:
     """The rectangle of `width` around the line; with `square` it reaches half a width beyond the end points.
 
     End points within +-2**18 pixels, width within 2**12. In the line's own frame a point's distance across is
     v / length and along it u / length, with v = dx Y - dy X and u = dx X + dy Y. Each of the four edges bounds the
-    points of a sub-scanline from the left or from the right; from one sub-scanline to the next its bound moves by a
-    constant fraction, which is kept as a quotient and a remainder.
+    points of a sub-scanline from the left or from the right. Returns False, with nothing painted, where the bounds
+    are too far away or too fine for exact arithmetic in 64 bits.
     """
     dx: cython.longlong = x2 - x1
     dy: cython.longlong = y2 - y1
@@ -133,7 +138,7 @@ def slab(
                 n,
                 corner,
             )
-        return
+        return True
     if dy < 0:
         x1, y1, dx, dy = x2, y2, -dx, -dy
     squared: cython.longlong = dx * dx + dy * dy
@@ -154,7 +159,7 @@ def slab(
     top: cython.longlong = max(surface.top, cython.cast(cython.longlong, floor(y1 / 256.0 - over + 0.49)))
     bottom: cython.longlong = min(surface.bottom, cython.cast(cython.longlong, ceil((y1 + dy) / 256.0 + over + 0.51)))
     if top >= bottom:
-        return
+        return True
 
     # The bounds of the first sub-scanline: left side, left end, right side, right end.
     middle: cython.longlong = 256 * (n if corner else n - 1)
@@ -162,12 +167,10 @@ def slab(
     offset: cython.longlong = 2 * n * x1 + middle
     edge: cython.int
     bound: cython.longlong[4]
-    rest: cython.longlong[4]
     divisor: cython.longlong[4]
     step: cython.longlong[4]
-    rest_step: cython.longlong[4]
     if not cython.compiled:
-        bound, rest, divisor, step, rest_step = ([0] * 4 for _ in range(5))
+        bound, divisor, step = ([0] * 4 for _ in range(3))
     divisor[0] = divisor[2] = dy
     step[0] = step[2] = dx
     bound[0] = dx * down - inside
@@ -182,33 +185,39 @@ def slab(
         step[1] = step[3] = dy
         bound[1] = dy * down - whole - end_inside
         bound[3] = dy * down + end_outside
+    # A bound moves by a constant fraction. With 40 bits behind the point, the fractions' errors add up to less than the
+    # slack; and the slack is less than the least distance of a bound from the next whole number, which is 1 / divisor.
+    lines: cython.longlong = n * (bottom - top)
+    slack: cython.longlong = 2 * lines + 8
     for edge in range(4):
         # The first sub-pixel at or right of the bound: a ceiling.
-        rest[edge] = _floor_div(bound[edge] + divisor[edge] * offset - 1, 512) + divisor[edge]
-        bound[edge] = _floor_div(rest[edge], divisor[edge])
-        rest[edge] -= bound[edge] * divisor[edge]
-        rest_step[edge] = step[edge]
-        step[edge] = _floor_div(rest_step[edge], divisor[edge])
-        rest_step[edge] -= step[edge] * divisor[edge]
+        rest: cython.longlong = _floor_div(bound[edge] + divisor[edge] * offset - 1, 512) + divisor[edge]
+        whole_part: cython.longlong = _floor_div(rest, divisor[edge])
+        whole_step: cython.longlong = _floor_div(step[edge], divisor[edge])
+        if (
+            (2 * slack * divisor[edge]) >> 40
+            or abs(whole_part) > _LARGEST_BOUND
+            or abs(whole_part + lines * whole_step) > _LARGEST_BOUND
+        ):
+            return False
+        rest -= whole_part * divisor[edge]
+        bound[edge] = (whole_part << 40) + slack + cython.cast(cython.longlong, floor(rest * _UNIT / divisor[edge]))
+        rest = step[edge] - whole_step * divisor[edge]
+        step[edge] = (whole_step << 40) + cython.cast(cython.longlong, floor(rest * _UNIT / divisor[edge]))
 
     spans: cython.Py_ssize_t[32]
     if not cython.compiled:
         spans = [0] * 32
     y: cython.longlong
     row: cython.int
-    carry: cython.longlong
     for y in range(top, bottom):
         for row in range(n):
-            spans[2 * row] = max(bound[0], bound[1])
-            spans[2 * row + 1] = min(bound[2], bound[3])
-            if surface.weighing:
-                surface.weigh(y, row, spans[2 * row], spans[2 * row + 1])
+            spans[2 * row] = max(bound[0], bound[1]) >> 40
+            spans[2 * row + 1] = min(bound[2], bound[3]) >> 40
             for edge in range(4):
-                rest[edge] += rest_step[edge]
-                carry = -cython.cast(cython.longlong, rest[edge] >= divisor[edge])
-                rest[edge] -= divisor[edge] & carry
-                bound[edge] += step[edge] - carry
+                bound[edge] += step[edge]
         paint(surface, y, spans, n, n)
+    return True
 
 
 @cython.cfunc
