@@ -182,11 +182,12 @@ def thick() -> str:
     thick, fb = plain()["thick"], plain()["Framebuffer"](13, 11)
     steps = watch(
         thick.slab,
-        "spans[2 * row] = max(bound[0], bound[1])",
+        "spans[2 * row] = max(bound[0], bound[1]) >> 40",
         lambda: fb.line(2, 2, 10, 8, width=3, cap="butt"),
-        lambda at: (at["y"], *at["bound"], (max(at["bound"][:2]), min(at["bound"][2:])), at),
+        lambda at: (at["y"], *(bound >> 40 for bound in at["bound"]), at),
     )
     at = steps[0][-1]
+    steps = [(*step[:5], (max(step[1:3]), min(step[3:5]))) for step in steps]
     numbers = [
         (name, f"{at[name]:,}".replace(",", " ")) for name in ("dx", "dy", "squared", "inside", "outside", "whole")
     ]
