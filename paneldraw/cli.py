@@ -111,7 +111,7 @@ def _parser() -> argparse.ArgumentParser:
     parser = _Parser(prog="paneldraw", description="Draw on OLED, LCD and LED panels, real or simulated.")
     parser.add_argument("--version", action=_Version)
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
-    for add in (_add_demo, _add_show, _add_text, _add_detect, _add_info, _add_firmware):
+    for add in (_add_demo, _add_show, _add_text, _add_detect, _add_info, _add_bench, _add_firmware):
         add(commands)
     return parser
 
@@ -184,6 +184,11 @@ def _save_path(text: str) -> Path:
     return path
 
 
+def _check_folder(path: Path | None) -> None:
+    if path and not path.parent.is_dir():
+        raise _UserError(f"there is no folder {path.parent}; make it first")
+
+
 def _demo(options: argparse.Namespace) -> int:
     from . import playback
     from .demos import find
@@ -191,8 +196,7 @@ def _demo(options: argparse.Namespace) -> int:
     frames = options.frames or max(1, (options.seconds or 10.0) * options.fps)
     if options.save and not math.isfinite(frames):
         raise _UserError("a file cannot hold an endless demo; give --seconds a number")
-    if options.save and not options.save.parent.is_dir():
-        raise _UserError(f"there is no folder {options.save.parent}; make it first")
+    _check_folder(options.save)
     with _opened(options) as panel:
         playback.play(find(options.name), panel, options.name, frames=frames, fps=options.fps, save_to=options.save)
     return 0
@@ -346,7 +350,33 @@ def _info(options: argparse.Namespace) -> int:
     return 0
 
 
-# firmware
+# bench and firmware
+
+
+def _add_bench(commands: _Commands) -> None:
+    about = "count what ten scenes cost on the wire, beside a driver that sends whole frames; it needs no panel"
+    parser = commands.add_parser("bench", help=about, description=about)
+    parser.add_argument("--save", type=_chart_path, metavar="FILE", help="draw the table as a chart, a .png")
+    parser.add_argument("--frames", type=_positive(int), default=120, metavar="N", help="how many of each scene (120)")
+    parser.set_defaults(run=_bench)
+
+
+def _chart_path(text: str) -> Path:
+    if Path(text).suffix.lower() != ".png":
+        raise argparse.ArgumentTypeError(f"{text} does not end in .png")
+    return Path(text)
+
+
+def _bench(options: argparse.Namespace) -> int:
+    from . import bench
+
+    _check_folder(options.save)
+    lines = bench.measured(options.frames)
+    print("\n".join(bench.table(lines)))
+    if options.save:
+        bench.chart(lines).save(options.save, scale=2)
+        print(f"wrote {options.save}")
+    return 0
 
 
 def _add_firmware(commands: _Commands) -> None:
