@@ -197,6 +197,13 @@ def as_samples(antialias: Any) -> Supersample:
     return antialias
 
 
+def length(name: str, value: Any, unit: Any) -> int:
+    """`value`, which may not be negative, to the nearest 1 / unit of a pixel, where unit is 1 or 256."""
+    if real(name, value) < 0:
+        raise ValueError(f"{name} must not be negative, and is {value}")
+    return whole(name, value) if unit == 1 else to_256ths(name, value)
+
+
 def choice(name: str, value: Any, choices: dict[str, Int]) -> Int:
     """The number by which the raster modules know one of a few words."""
     try:

@@ -99,7 +99,7 @@ def test_circles_are_closed(ring):
     padded = np.pad(lit, 1).astype(int)
     neighbors = sum(np.roll(padded, (dy, dx), (0, 1)) for dy in (-1, 0, 1) for dx in (-1, 0, 1) if dx or dy)
     assert r == 0 or (neighbors[padded == 1] >= 2).all()
-    page = Image.fromarray(np.pad(lit, 1).astype(np.uint8))
+    page = Image.fromarray(np.pad(lit, 1).astype(np.uint8)).copy()  # what shares an array's memory is read-only
     ImageDraw.floodfill(page, (0, 0), 2)
     assert page.getpixel((r + 1, r + 1)) != 2
 

@@ -1,0 +1,162 @@
+# cython: language_level=3, boundscheck=False, wraparound=False, cdivision=True, nonecheck=True
+"""How rectangles and round shapes are painted, thin or wide, near or far."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import Any
+
+import cython
+
+from paneldraw.framebuffer.angles import direction, is_reflex
+from paneldraw.raster.curves import end_of_radius
+from paneldraw.raster.cuts import UNIT, quadrants_far, sector_outline_far, wedge_far
+
+if cython.compiled:
+    from cython.cimports.paneldraw.framebuffer.arguments import FIXED_REACH, NEAR
+    from cython.cimports.paneldraw.raster.curves import Sector, Wedge, curve_far, ellipse, rounded, sector_far
+    from cython.cimports.paneldraw.raster.cuts import Cut, Quadrants, SectorOutline
+    from cython.cimports.paneldraw.raster.cuts import Wedge as WedgeCut
+    from cython.cimports.paneldraw.raster.rounds import band, band_far
+    from cython.cimports.paneldraw.raster.supersample import Supersample
+else:
+    from paneldraw.framebuffer.arguments import FIXED_REACH, NEAR
+    from paneldraw.framebuffer.polygons import Polygons
+    from paneldraw.raster.curves import Sector, Wedge, curve_far, ellipse, rounded, sector_far
+    from paneldraw.raster.cuts import Cut, Quadrants, SectorOutline
+    from paneldraw.raster.cuts import Wedge as WedgeCut
+    from paneldraw.raster.rounds import band, band_far
+    from paneldraw.raster.supersample import Supersample
+
+# Radii beyond these, in pixels and in 256ths, are left to Python's arithmetic.
+LARGE = cython.declare(cython.longlong, 1 << 14)
+LARGE_256THS = cython.declare(cython.longlong, 1 << 21)
+
+# The length of the vectors of angles, where 64 bits do not limit it.
+_FINE = 1 << 60
+
+
+@cython.cclass
+class Rounds(Polygons):
+    """How rectangles and round shapes are painted."""
+
+    @cython.cfunc
+    def _thin_rect(self, x: Any, y: Any, w: Any, h: Any, r: Any, fill: cython.bint) -> Any:
+        """Paint the aliased rectangle, with rounded corners where there is room for them."""
+        r = min(r, (w - 1) // 2, (h - 1) // 2)
+        if r > 0:
+            self._rounded(x + r, y + r, x + w - 1 - r, y + h - 1 - r, r, fill)
+        elif fill or w <= 2 or h <= 2:
+            self._block(x, y, w, h)
+        else:
+            self._block(x, y, w, 1)
+            self._block(x, y + h - 1, w, 1)
+            self._block(x, y + 1, 1, h - 2)
+            self._block(x + w - 1, y + 1, 1, h - 2)
+
+    @cython.cfunc
+    def _thin_ellipse(self, x: Any, y: Any, xr: Any, yr: Any, fill: cython.bint, quadrants: cython.int) -> Any:
+        if max(xr, yr) <= LARGE:
+            ellipse(self.surface, _clamp(x, NEAR), _clamp(y, NEAR), xr, yr, fill, quadrants, None)
+        else:
+            curve_far(self.surface, (x, y, x, y), xr, yr, fill, quadrants, None)
+
+    @cython.cfunc
+    def _thin_turn(
+        self, x: Any, y: Any, r: Any, start: Any, end: Any, swept: Any, sector: cython.bint, fill: cython.bint
+    ) -> Any:
+        """Paint the aliased arc or sector between two angles that are `swept` degrees apart."""
+        start, end = (end_of_radius(r, direction(angle, _FINE), _FINE) for angle in (start, end))
+        wedge = (start, end, is_reflex(start, end, swept))
+        if r > LARGE:
+            if sector:
+                sector_far(self.surface, x, y, r, fill, wedge)
+            else:
+                curve_far(self.surface, (x, y, x, y), r, r, False, 0, wedge)
+            return
+        cx: cython.longlong = _clamp(x, NEAR)
+        cy: cython.longlong = _clamp(y, NEAR)
+        if sector:
+            outline: Sector = Sector(cx, cy, r, fill, Wedge(*wedge))
+            outline.paint(self.surface, cy - r, cy + r + 1)
+        elif start == end and swept <= 180:
+            self.surface.point(cx + start[0], cy + start[1])
+        else:
+            ellipse(self.surface, cx, cy, r, r, False, 0, Wedge(*wedge))
+
+    @cython.cfunc
+    def _wide_turn(
+        self,
+        x: Any,
+        y: Any,
+        r: Any,
+        start: Any,
+        end: Any,
+        swept: Any,
+        sector: cython.bint,
+        fill: cython.bint,
+        width: Any,
+        samples: Supersample,
+    ) -> Any:
+        unit = UNIT if _is_near(r, width) else _FINE
+        start, end = direction(start, unit), direction(end, unit)
+        wedge = (start, end, is_reflex(start, end, swept), sector and not fill)
+        self._around(x, y, r, r, width, fill, wedge, samples)
+
+    @cython.cfunc
+    def _rounded(self, left: Any, top: Any, right: Any, bottom: Any, r: Any, fill: cython.bint) -> Any:
+        """Paint the midpoint circle, its quarters around the corners of a rectangle."""
+        if r > LARGE:
+            curve_far(self.surface, (left, top, right, bottom), r, r, fill, 15, None)
+            return
+        # Corners that far away are as invisible as farther ones.
+        a: cython.longlong = _clamp(left, NEAR)
+        b: cython.longlong = _clamp(right, NEAR)
+        rounded(self.surface, a, _clamp(top, NEAR), b, _clamp(bottom, NEAR), r, fill)
+
+    @cython.cfunc
+    def _around(
+        self, x: Any, y: Any, a: Any, b: Any, width: Any, fill: cython.bint, cut: Any, samples: Supersample
+    ) -> Any:
+        self._band((x, y, x, y), a, b, width, False, fill, cut, samples)
+
+    @cython.cfunc
+    def _band(
+        self,
+        centers: Any,
+        a: Any,
+        b: Any,
+        width: Any,
+        sharp: cython.bint,
+        fill: cython.bint,
+        cut: Any,
+        samples: Supersample,
+    ) -> Any:
+        """Paint a band or what it encloses; numbers in 256ths.
+
+        `cut` is None, a number of quadrants, or two vectors, whether their angle is reflex, and whether it is outlined.
+        """
+        if not _is_near(max(a, b), width):
+            part = None
+            if isinstance(cut, tuple):
+                part = partial(sector_outline_far, _FINE, *cut[:3]) if cut[3] else partial(wedge_far, *cut[:3])
+            elif cut is not None:
+                part = partial(quadrants_far, cut)
+            band_far(self.surface, centers, a, b, width, sharp, fill, part, samples.n, samples.corner)
+            return
+        near: Cut | None = None
+        if isinstance(cut, tuple):
+            near = SectorOutline(*cut[:3]) if cut[3] else WedgeCut(*cut[:3])
+        elif cut is not None:
+            near = Quadrants(cut)
+        left, top, right, bottom = (_clamp(center, 256 * FIXED_REACH) for center in centers)
+        band(self.surface, left, top, right, bottom, a, b, width, sharp, fill, near, samples.n, samples.corner)
+
+
+def _is_near(radius: Any, width: Any) -> Any:
+    """Whether 64-bit arithmetic holds a band of that radius, in 256ths."""
+    return 2 * radius + width < 2 * LARGE_256THS
+
+
+def _clamp(number: Any, limit: Any) -> Any:
+    return min(max(number, -limit), limit)
