@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from math import cos, radians, sin
+from math import cos, nextafter, radians, sin
 
 _EXACT = 1 << 53
+_NEARLY = nextafter(360, 0)
 
 Vector = tuple[int, int]
 
@@ -14,7 +15,7 @@ def sweep(start: float, end: float) -> float:
     """How far it is clockwise from one angle to another: less than 360 degrees, or 360 for that and more."""
     near = max(abs(start), abs(end)) < _EXACT
     turned = end - start if near else Fraction(end) - Fraction(start)
-    return 360 if turned >= 360 else float(turned % 360)
+    return 360 if turned >= 360 else min(float(turned % 360), _NEARLY)
 
 
 def direction(angle: float, unit: int) -> Vector:

@@ -1,5 +1,4 @@
 from paneldraw.framebuffer.polygons cimport Polygons
-from paneldraw.raster.supersample cimport Supersample
 
 cdef long long LARGE
 cdef long long LARGE_256THS
@@ -12,12 +11,12 @@ cdef class Rounds(Polygons):
     )
     cdef object _wide_turn(
         self, object x, object y, object r, object start, object end, object swept, bint sector, bint fill,
-        object width, Supersample samples,
+        object width, object antialias,
     )
     cdef object _rounded(self, object left, object top, object right, object bottom, object r, bint fill)
     cdef object _around(
-        self, object x, object y, object a, object b, object width, bint fill, object cut, Supersample samples
+        self, object x, object y, object a, object b, object width, bint fill, object cut, object antialias
     )
     cdef object _band(
-        self, object centers, object a, object b, object width, bint sharp, bint fill, object cut, Supersample samples
+        self, object centers, object a, object b, object width, bint sharp, bint fill, object cut, object antialias
     )

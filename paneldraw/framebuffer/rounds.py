@@ -96,12 +96,12 @@ class Rounds(Polygons):
         sector: cython.bint,
         fill: cython.bint,
         width: Any,
-        samples: Supersample,
+        antialias: Any,
     ) -> Any:
         unit = UNIT if _is_near(r, width) else _FINE
         start, end = direction(start, unit), direction(end, unit)
         wedge = (start, end, is_reflex(start, end, swept), sector and not fill)
-        self._around(x, y, r, r, width, fill, wedge, samples)
+        self._around(x, y, r, r, width, fill, wedge, antialias)
 
     @cython.cfunc
     def _rounded(self, left: Any, top: Any, right: Any, bottom: Any, r: Any, fill: cython.bint) -> Any:
@@ -115,10 +115,8 @@ class Rounds(Polygons):
         rounded(self.surface, a, _clamp(top, NEAR), b, _clamp(bottom, NEAR), r, fill)
 
     @cython.cfunc
-    def _around(
-        self, x: Any, y: Any, a: Any, b: Any, width: Any, fill: cython.bint, cut: Any, samples: Supersample
-    ) -> Any:
-        self._band((x, y, x, y), a, b, width, False, fill, cut, samples)
+    def _around(self, x: Any, y: Any, a: Any, b: Any, width: Any, fill: cython.bint, cut: Any, antialias: Any) -> Any:
+        self._band((x, y, x, y), a, b, width, False, fill, cut, antialias)
 
     @cython.cfunc
     def _band(
@@ -130,27 +128,38 @@ class Rounds(Polygons):
         sharp: cython.bint,
         fill: cython.bint,
         cut: Any,
-        samples: Supersample,
+        antialias: Any,
     ) -> Any:
         """Paint a band or what it encloses; numbers in 256ths.
 
         `cut` is None, a number of quadrants, or two vectors, whether their angle is reflex, and whether it is outlined.
         """
-        if not _is_near(max(a, b), width):
-            part = None
-            if isinstance(cut, tuple):
-                part = partial(sector_outline_far, _FINE, *cut[:3]) if cut[3] else partial(wedge_far, *cut[:3])
-            elif cut is not None:
-                part = partial(quadrants_far, cut)
-            band_far(self.surface, centers, a, b, width, sharp, fill, part, samples.n, samples.corner)
-            return
-        near: Cut | None = None
-        if isinstance(cut, tuple):
-            near = SectorOutline(*cut[:3]) if cut[3] else WedgeCut(*cut[:3])
-        elif cut is not None:
-            near = Quadrants(cut)
-        left, top, right, bottom = (_clamp(center, 256 * FIXED_REACH) for center in centers)
-        band(self.surface, left, top, right, bottom, a, b, width, sharp, fill, near, samples.n, samples.corner)
+        samples: Supersample = self._begin(antialias)
+        try:
+            if _is_near(max(a, b), width):
+                left, top, right, bottom = (_clamp(center, 256 * FIXED_REACH) for center in centers)
+                near = _near_cut(cut)
+                band(self.surface, left, top, right, bottom, a, b, width, sharp, fill, near, samples.n, samples.corner)
+            else:
+                far = _far_cut(cut)
+                band_far(self.surface, centers, a, b, width, sharp, fill, far, samples.n, samples.corner)
+        finally:
+            self._end()
+
+
+@cython.cfunc
+def _near_cut(cut: Any) -> Cut | None:
+    if isinstance(cut, tuple):
+        start, end, reflex, outlined = cut
+        return SectorOutline(start, end, reflex) if outlined else WedgeCut(start, end, reflex)
+    return None if cut is None else Quadrants(cut)
+
+
+def _far_cut(cut: Any) -> Any:
+    if isinstance(cut, tuple):
+        start, end, reflex, outlined = cut
+        return partial(sector_outline_far, _FINE, start, end, reflex) if outlined else partial(wedge_far, *cut[:3])
+    return None if cut is None else partial(quadrants_far, cut)
 
 
 def _is_near(radius: Any, width: Any) -> Any:

@@ -64,7 +64,7 @@ class Shapes(Rounds):
         fill : bool, default False
         width : int or float, default 1
             Thickness of the outline in pixels, half of it on either side of the true outline.
-        antialias : Supersample or None, optional
+        antialias : Supersample, ConeFilter or None, optional
             Default: the framebuffer's.
         op : {"over", "xor", "add", "max", "clear"}
 
@@ -135,14 +135,14 @@ class Shapes(Rounds):
         if antialias is None and width == 1:
             self._thin_rect(whole("x", x), whole("y", y), length("w", w, 1), length("h", h, 1), length("r", r, 1), fill)
             return
-        samples: Supersample = as_samples(antialias)
+        as_samples(antialias)
         wide = line_width(width)
         left, right, most_x = _side(to_256ths("x", x), length("w", w, 256))
         top, bottom, most_y = _side(to_256ths("y", y), length("h", h, 256))
         corner = min(length("r", r, 256), most_x, most_y)
         if right > left - 256 and bottom > top - 256:
             centers = (left + corner, top + corner, right - corner, bottom - corner)
-            self._band(centers, corner, corner, wide, corner == 0, fill, None, samples)
+            self._band(centers, corner, corner, wide, corner == 0, fill, None, antialias)
 
     def circle(
         self,
@@ -205,17 +205,18 @@ class Shapes(Rounds):
             else:
                 self._thin_ellipse(whole("x", x), whole("y", y), length("r", r, 1), length("r", r, 1), fill, 15)
             return
-        samples: Supersample = as_samples(antialias)
         a = quick_256ths(x)
         b = quick_256ths(y)
         k = quick_256ths(r)
         wide = 256 if width == 1 else quick_256ths(width)
         near: cython.bint = a != FAR and b != FAR and 0 < k <= LARGE_256THS and 0 < wide <= 2 * LARGE_256THS
-        if near and 2 * k + wide < 2 * LARGE_256THS:
+        if near and 2 * k + wide < 2 * LARGE_256THS and isinstance(antialias, Supersample):
+            samples: Supersample = antialias
             band(self.surface, a, b, a, b, k, k, wide, False, fill, None, samples.n, samples.corner)
         else:
+            as_samples(antialias)
             radius = length("r", r, 256)
-            self._around(to_256ths("x", x), to_256ths("y", y), radius, radius, line_width(width), fill, None, samples)
+            self._around(to_256ths("x", x), to_256ths("y", y), radius, radius, line_width(width), fill, None, antialias)
 
     def ellipse(
         self,
@@ -279,10 +280,10 @@ class Shapes(Rounds):
             width_reach, height_reach = length("xr", xr, 1), length("yr", yr, 1)
             self._thin_ellipse(whole("x", x), whole("y", y), width_reach, height_reach, fill, quarters)
             return
-        samples: Supersample = as_samples(antialias)
+        as_samples(antialias)
         a, b = length("xr", xr, 256), length("yr", yr, 256)
         cut: Any = None if quarters == 15 else quarters
-        self._around(to_256ths("x", x), to_256ths("y", y), a, b, line_width(width), fill, cut, samples)
+        self._around(to_256ths("x", x), to_256ths("y", y), a, b, line_width(width), fill, cut, antialias)
 
     def arc(
         self,
@@ -413,9 +414,9 @@ class Shapes(Rounds):
         if antialias is None and width == 1:
             self._thin_turn(whole("x", x), whole("y", y), length("r", r, 1), start, end, swept, sector, fill)
             return
-        samples: Supersample = as_samples(antialias)
+        as_samples(antialias)
         x, y, r = to_256ths("x", x), to_256ths("y", y), length("r", r, 256)
-        self._wide_turn(x, y, r, start, end, swept, sector, fill, line_width(width), samples)
+        self._wide_turn(x, y, r, start, end, swept, sector, fill, line_width(width), antialias)
 
 
 def _side(start: Any, size: Any) -> Any:

@@ -53,6 +53,7 @@ def band(
     the width less than 2**13.
     """
     # Left, top, right and bottom of the rectangle, and the two radii.
+    i: cython.Py_ssize_t
     outer: cython.longlong[6]
     hole: cython.longlong[6]
     spans: cython.Py_ssize_t[224]
@@ -65,25 +66,27 @@ def band(
         cut.place(2 * n * left, 2 * n * top, half, n)
     # Sub-pixel g of pixel row or column g // n has its reference point at 512 g - middle.
     middle: cython.longlong = 256 * (n if corner else n - 1)
-    row: cython.longlong = max((outer[1] - outer[5] + middle + 511) >> 9, surface.top * n)
+    first: cython.longlong = max((outer[1] - outer[5] + middle + 511) >> 9, surface.top * n)
     last: cython.longlong = min((outer[3] + outer[5] + middle + 511) >> 9, surface.bottom * n)
-    end: cython.longlong
-    y: cython.longlong
+    # The row of `first`, which is negative where a filter looks beyond the window.
+    y: cython.longlong = surface.top + (first - surface.top * n) // n
+    row: cython.longlong
     start: cython.Py_ssize_t
     count: cython.Py_ssize_t
-    while row < last:
+    while y * n < last:
         count = 0
-        end = min(last, (row // n + 1) * n)
-        while row < end:
-            y = 512 * row - middle
+        for row in range(max(first, y * n), min(last, y * n + n)):
             start = count
-            count += _across(outer, y, middle, spans, count)
-            if hollow and _across(hole, y, middle, spans, count):
+            count += _across(outer, 512 * row - middle, middle, spans, count)
+            if hollow and _across(hole, 512 * row - middle, middle, spans, count):
                 count = _open(spans, count)
             if cut is not None and count > start:
-                count = cut.apply(spans, start, count, y, middle)
-            row += 1
-        paint(surface, (row - 1) // n, spans, count, n)
+                count = cut.apply(spans, start, count, 512 * row - middle, middle)
+            if surface.weighing:
+                for i in range(start, count):
+                    surface.weigh(y, row - y * n, spans[2 * i], spans[2 * i + 1])
+        paint(surface, y, spans, count, n)
+        y += 1
 
 
 @cython.cfunc
@@ -186,7 +189,9 @@ def band_far(
             for k in range(len(pieces)):
                 for end in (0, 1):
                     bound = -((-pieces[k][end] - x - middle) // 512)
-                    spans[2 * count + end] = min(max(bound, surface.left * n), surface.right * n)
+                    spans[2 * count + end] = min(max(bound, (surface.left - 1) * n), (surface.right + 1) * n)
+                if surface.weighing:
+                    surface.weigh(y, row - n * y, spans[2 * count], spans[2 * count + 1])
                 count += 1
         paint(surface, y, spans, count, n)
 

@@ -166,6 +166,7 @@ def test_an_arc_and_the_one_back_are_the_circle(package, r, start, end):
 @example(12, 20, 21)
 @example(12, 20, 20)
 @example(2, 300, 200)
+@example(1, 0, -1e-175)
 def test_sectors_are_an_arc_and_two_radii_and_what_these_enclose(package, r, start, end):
     assume(end - start < 360)
     outline = drawn(package, "arc", CENTER, CENTER, r, start, end, size=(SIZE, SIZE))
