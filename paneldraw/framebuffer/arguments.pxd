@@ -1,3 +1,4 @@
+from paneldraw.raster.cone cimport ConeFilter
 from paneldraw.raster.supersample cimport Supersample
 
 cdef long long NEAR

@@ -15,9 +15,7 @@ from numpy.typing import NDArray
 
 from paneldraw.raster.cone import SAMPLES
 
-if cython.compiled:
-    from cython.cimports.paneldraw.raster.cone import ConeFilter
-else:
+if not cython.compiled:  # cimported in the .pxd, which leaves a user's type checker these
     from paneldraw.raster.cone import ConeFilter
     from paneldraw.raster.supersample import Supersample
 
