@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import example, given, settings
+from hypothesis import Phase, example, given, settings
 from hypothesis import strategies as st
 
 import paneldraw
@@ -69,7 +69,11 @@ def perform(package, fb, call, arguments, level, op):
         getattr(fb, call)(*arguments, level, op=op)
 
 
-@settings(max_examples=200)
+# Shrinking a failure of so many calls would take longer than a test may.
+quickly = (Phase.explicit, Phase.reuse, Phase.generate)
+
+
+@settings(max_examples=200, phases=quickly)
 @given(
     st.lists(st.tuples(calls, ops), min_size=1, max_size=6), st.integers(1, 40), st.integers(1, 40), st.integers(1, 15)
 )
@@ -93,7 +97,7 @@ def perform_all(package, script, width, height, level):
     return fb.pixels
 
 
-@settings(max_examples=50)
+@settings(max_examples=50, phases=quickly)
 @given(st.lists(st.tuples(calls, ops), min_size=10, max_size=20))
 def test_neighbors_in_memory_are_left_alone(script):
     """Framebuffers of a size lie close together; only the one drawn on may change."""

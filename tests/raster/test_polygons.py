@@ -169,6 +169,16 @@ def test_long_dashed_lines_cost_no_more_than_what_is_seen(package, dash):
         assert fb.pixels.any()
 
 
+@pytest.mark.parametrize("length", [2**42, 2.0**63, 2**63, 2**70, 1e308, 10**400])
+def test_a_dash_may_be_endless(package, length):
+    for style in ({}, {"width": 3}, {"width": 2.5, "cap": "round", "antialias": package.Supersample(2)}):
+        for ends in ((0, 0, 12, 9), (-(2**40), 5, 2**40, 5)):
+            dashed, solid = package.Framebuffer(WIDTH, HEIGHT), package.Framebuffer(WIDTH, HEIGHT)
+            dashed.line(*ends, dash=[length], **style)
+            solid.polyline([ends[:2], ends[2:]], **style)
+            assert dashed == solid
+
+
 @pytest.mark.parametrize("name", ["points", "coords"])
 @pytest.mark.parametrize(
     ("bad", "error"),
