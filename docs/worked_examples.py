@@ -175,6 +175,29 @@ def bresenham_both_ends() -> str:
     )
 
 
+# -- Curves
+
+
+def circle() -> str:
+    curves, fb = plain()["curves"], plain()["Framebuffer"](17, 17)
+    decided = watch(curves.rounded, "x += 1", lambda: fb.circle(8, 8, 8), lambda at: (at["x"], at["y"], at["p"]))
+    rows = []
+    for x, y, p in decided:
+        rows.append((x, f"({x}, {y})", p, "inside: stay" if p < 0 else "outside: next row"))
+    return table("k|(x, y)|p<sub>k</sub>|the midpoint is", rows) + panel(fb)
+
+
+def ellipse() -> str:
+    curves, fb = plain()["curves"], plain()["Framebuffer"](19, 11)
+    rows = watch(
+        curves.ellipse,
+        "inner = 0 if fill else min(x, before + 1)",
+        lambda: fb.ellipse(9, 5, 9, 5),
+        lambda at: (at["y"], at["p"], at["q"], f"{min(at['x'], at['before'] + 1)} … {at['x']}"),
+    )
+    return table("row y|p|q|x", rows) + panel(fb)
+
+
 # -- Shapes by reference points
 
 
