@@ -7,7 +7,7 @@ import random
 import numpy as np
 from measure import Against, Contest, Names, Row
 
-from paneldraw import Framebuffer, Supersample
+from paneldraw import ConeFilter, Framebuffer, Supersample
 
 WIDTH, HEIGHT = 128, 64
 N = 500
@@ -62,6 +62,15 @@ ROWS = [
         (Against("OpenCV", "cv2.polylines(canvas, pairs, False, 255, 1, AA)", 1.2),),
     ),
     Row(
+        "line, ConeFilter()",
+        N,
+        EACH + "cone_line(x1, y1, x2, y2)",
+        (
+            Against("OpenCV", ENDS + "line(canvas, p, q, 255, 1, AA)"),
+            Against("Skia", EACH + "line(x1, y1, x2, y2, thin)", 2),
+        ),
+    ),
+    Row(
         "circle, r 12",
         N,
         CENTERS + "circle(x, y, 12)",
@@ -79,6 +88,15 @@ ROWS = [
             Against("OpenCV", "for center in centers: circle(canvas, center, 12, 255, -1)", 1.5),
         ),
     ),
+    Row(
+        "filled polygon, 12 points",
+        len(range(0, 2 * N - 12, 12)),
+        "for table in polygons: poly(0, 0, table, 1, True)",
+        (
+            Against("Pillow", "for corners in listed_polygons: polygon(corners, 1)", 1.5),
+            Against("OpenCV", "for table in int32_polygons: cv2.fillPoly(canvas, table, 255)", 1.5),
+        ),
+    ),
 ]
 
 
@@ -89,19 +107,25 @@ def names() -> Names:
     ends = list(zip(points[::2], points[1::2], strict=True))
     segments = [p + q for p, q in ends]
     centers = points[::2]
+    polygons = [points[k : k + 12] for k in range(0, 2 * N - 12, 12)]
     fb = Framebuffer(WIDTH, HEIGHT)
     smooth = Framebuffer(WIDTH, HEIGHT, 8, antialias=Supersample(4))
+    cone = Framebuffer(WIDTH, HEIGHT, 8, antialias=ConeFilter())
     return {
         "ends": ends,
         "segments": segments,
         "centers": centers,
         "boxes": [(x - 12, y - 12, x + 12, y + 12) for x, y in centers],
         "table": np.array(segments),
+        "polygons": [np.array(corners) for corners in polygons],
+        "listed_polygons": polygons,
         "fb": fb,
         "line": fb.line,
         "circle": fb.circle,
         "smooth": smooth,
         "smooth_line": smooth.line,
+        "cone_line": cone.line,
+        "poly": fb.poly,
     }
 
 
@@ -110,7 +134,7 @@ def pillow() -> Names:
     from PIL import Image, ImageDraw
 
     draw = ImageDraw.Draw(Image.new("1", (WIDTH, HEIGHT)))
-    return {"line": draw.line, "ellipse": draw.ellipse}
+    return {"line": draw.line, "ellipse": draw.ellipse, "polygon": draw.polygon}
 
 
 def opencv() -> Names:
@@ -118,7 +142,8 @@ def opencv() -> Names:
     import cv2
 
     cv2.setNumThreads(1)
-    pairs = np.array(names()["segments"], np.int32).reshape(-1, 2, 2)
+    shapes = names()
+    pairs = np.array(shapes["segments"], np.int32).reshape(-1, 2, 2)
     return {
         "cv2": cv2,
         "canvas": np.zeros((HEIGHT, WIDTH), np.uint8),
@@ -127,6 +152,7 @@ def opencv() -> Names:
         "AA": cv2.LINE_AA,
         "pairs": pairs,
         "listed_pairs": list(pairs),
+        "int32_polygons": [[corners.astype(np.int32)] for corners in shapes["polygons"]],
     }
 
 

@@ -1,4 +1,4 @@
-"""What `import paneldraw` costs over `import numpy`, each in a fresh interpreter, and what it brings along."""
+"""CPU time of `import paneldraw` after `import numpy`, each in a fresh interpreter, and what it brings along."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ LATE = ("PIL", "smbus2", "serial", "cobs", "spidev", "gpiod", "aiohttp")
 PROGRAM = """
 import json, sys, threading, time
 import numpy
-start = time.perf_counter()
+start = time.process_time()
 {statement}
-print(json.dumps([time.perf_counter() - start, threading.active_count() - 1, sorted(sys.modules)]))
+print(json.dumps([time.process_time() - start, threading.active_count() - 1, sorted(sys.modules)]))
 """
 
 
 def fresh(statement: str) -> tuple[float, int, list[str]]:
-    """Seconds that a statement takes after numpy in a new interpreter, threads it started, modules loaded then."""
+    """CPU seconds that a statement takes after numpy in a new interpreter, threads it started, modules loaded then."""
     program = PROGRAM.format(statement=statement)
     output = subprocess.run([sys.executable, "-c", program], check=True, capture_output=True, text=True).stdout
     seconds, threads, modules = json.loads(output)
