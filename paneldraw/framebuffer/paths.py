@@ -31,6 +31,9 @@ else:
     from paneldraw.raster.supersample import Supersample
     from paneldraw.raster.surface import Surface
 
+# In 256ths of a pixel.
+_NEARBY = 5 * 256
+
 
 @cython.cclass
 class Paths:
@@ -200,8 +203,8 @@ class Paths:
             points[2 * count + 1] = points[1]
             count += 1
             cap = 0
-        left, top = 256 * self.surface.left, 256 * self.surface.top
-        right, bottom = 256 * self.surface.right, 256 * self.surface.bottom
-        margin = 4 * width + 512
-        box = (left - margin, top - margin, right + margin, bottom + margin)
-        Dashes(contours, dash, distance % sum(dash), box, count).stroke(points, count, width, cap, join)
+        # What is near the window counts as well: reference points at its edge, and as far as a filter reaches.
+        left, top = 256 * self.surface.left - _NEARBY, 256 * self.surface.top - _NEARBY
+        right, bottom = 256 * self.surface.right + _NEARBY, 256 * self.surface.bottom + _NEARBY
+        box = (left, top, right, bottom)
+        Dashes(contours, dash, distance % sum(dash), box, 4 * width, count).stroke(points, count, width, cap, join)

@@ -165,6 +165,7 @@ def _fill(
     count: cython.int
     start: cython.int
     edge: cython.int
+    gap: cython.int
     i: cython.int
     j: cython.int
     winding: cython.int
@@ -187,14 +188,20 @@ def _fill(
             continue
         count = 0
         for row in range(y * n, y * n + n):
-            # From one sub-scanline to the next the order hardly changes: insertion sort.
-            for i in range(1, crossing):
-                edge = active[i]
-                j = i
-                while j > 0 and edges[active[j - 1]].bound > edges[edge].bound:
-                    active[j] = active[j - 1]
-                    j -= 1
-                active[j] = edge
+            # From one sub-scanline to the next the order hardly changes: insertion sort, by way of Shell's if there
+            # are so many edges that a new one may have far to go.
+            gap = 1
+            while 9 * gap < crossing:
+                gap = 3 * gap + 1
+            while gap > 0:
+                for i in range(gap, crossing):
+                    edge = active[i]
+                    j = i
+                    while j >= gap and edges[active[j - gap]].bound > edges[edge].bound:
+                        active[j] = active[j - gap]
+                        j -= gap
+                    active[j] = edge
+                gap //= 3
             winding = 0
             was_inside = False
             start = count

@@ -10,7 +10,7 @@ cdef class Contours:
 cdef class Dashes:
     cdef Contours contours
     cdef object pattern, kept
-    cdef double left, top, right, bottom, rest, width
+    cdef double left, top, right, bottom, margin, period, rest, width
     cdef int phase, cap, join
     cdef Py_ssize_t count
     cdef double *piece

@@ -12,9 +12,9 @@ from typing import Any
 import cython
 
 if cython.compiled:
-    from cython.cimports.libc.math import acos, atan2, ceil, cos, fmod, hypot, rint, sin
+    from cython.cimports.libc.math import acos, atan2, ceil, cos, floor, fmod, hypot, rint, sin
 else:
-    from math import acos, atan2, ceil, cos, fmod, hypot, sin
+    from math import acos, atan2, ceil, cos, floor, fmod, hypot, sin
 
     rint = round
 
@@ -232,12 +232,15 @@ class Dashes:
     """Cuts a path into the pieces that a dash pattern shows, and strokes these.
 
     The pattern, alternately a length that is drawn and one that is left out, starts where the stroke does and goes on
-    around corners. Dashes are cut square; a cap shapes the path's own ends. Only pieces in `box` (left, top, right,
-    bottom) are made, so that the work does not grow with what cannot be seen. A path that is itself a piece begins
-    at `distance` within the pattern.
+    around corners. Dashes are cut square; a cap shapes the path's own ends. Of the path only what comes within
+    `margin` of `box` (left, top, right, bottom) is followed, and of that the dashes are made that lie beside the box
+    or at a corner, so that the work does not grow with what cannot be seen. A path that is itself a piece begins at
+    `distance` within the pattern.
     """
 
-    def __init__(self, contours: Contours, pattern: Any, distance: Any, box: Any, capacity: cython.Py_ssize_t) -> None:
+    def __init__(
+        self, contours: Contours, pattern: Any, distance: Any, box: Any, margin: Any, capacity: cython.Py_ssize_t
+    ) -> None:
         self.contours = contours
         self.pattern = pattern
         self.left: Any
@@ -245,6 +248,8 @@ class Dashes:
         self.right: Any
         self.bottom: Any
         self.left, self.top, self.right, self.bottom = box
+        self.margin = margin
+        self.period = sum(pattern)
         self.phase = 0
         self.rest = pattern[0]
         self.count = 0
@@ -289,8 +294,8 @@ class Dashes:
         """Go on for `length` from (x, y) in the direction (ux, uy)."""
         first: cython.double = 0
         last: cython.double = length
-        first, last = _clip(x, ux, self.left, self.right, first, last)
-        first, last = _clip(y, uy, self.top, self.bottom, first, last)
+        first, last = _clip(x, ux, self.left - self.margin, self.right + self.margin, first, last)
+        first, last = _clip(y, uy, self.top - self.margin, self.bottom + self.margin, first, last)
         if first >= last:
             self._finish(0)
             self._skip(length)
@@ -298,6 +303,11 @@ class Dashes:
         if first > 0:
             self._finish(0)
             self._skip(first)
+        # Between these the segment passes the box. Elsewhere whole periods are left out.
+        low: cython.double = min((self.left - x) * ux, (self.right - x) * ux)
+        high: cython.double = max((self.left - x) * ux, (self.right - x) * ux)
+        low += min((self.top - y) * uy, (self.bottom - y) * uy)
+        high += max((self.top - y) * uy, (self.bottom - y) * uy)
         at: cython.double = first
         if self.phase % 2 == 0:
             self._add(x + ux * at, y + uy * at)
@@ -307,6 +317,10 @@ class Dashes:
                 self._add(x + ux * at, y + uy * at)
                 self._finish(0)
             self._next()
+            if at < low:
+                at += self.period * floor((min(low, last) - at) / self.period)
+            elif at > high:
+                at += self.period * floor((last - at) / self.period)
             if self.phase % 2 == 0:
                 self._add(x + ux * at, y + uy * at)
         self.rest -= last - at
@@ -344,7 +358,7 @@ class Dashes:
     def _skip(self, length: cython.double) -> Any:
         """Advance the pattern without drawing."""
         self.cap = 0
-        length = fmod(length, sum(self.pattern))
+        length = fmod(length, self.period)
         while length >= self.rest:
             length -= self.rest
             self._next()

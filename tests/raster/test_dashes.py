@@ -1,0 +1,209 @@
+"""Dashed lines and paths: pixels counted one by one, or coverage cut along the true line; and the DDA."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from math import ceil
+
+import definitions
+import numpy as np
+import pytest
+from figures import HEIGHT, ROUNDING, WIDTH, counted, dashed_stroke, stroke_bounds
+from golden import assert_pattern
+from hypothesis import assume, example, given, settings
+from hypothesis import strategies as st
+
+near = st.integers(-20, 33)
+far = st.one_of(
+    near,
+    st.integers(-(2**31), 2**31),
+    st.integers(-(2**70), 2**70),
+    st.builds(lambda d, s: s * (2**29 + d), st.integers(-2, 2), st.sampled_from([-1, 1])),
+)
+patterns = st.lists(st.integers(1, 6), min_size=1, max_size=5)
+algorithms = st.sampled_from(["bresenham", "dda"])
+in_256ths = st.integers(-3 * 256, 15 * 256).map(lambda v: v / 256)
+samples = st.tuples(st.sampled_from([1, 2, 4]), st.sampled_from(["center", "corner"]))
+
+
+@given(st.tuples(*[st.one_of(near, far)] * 4), patterns, algorithms)
+@example((-(2**70), 3, 2**70, 3), [1, 1], "dda")
+@example((3, 2**70, 3, -(2**70)), [2, 1, 1], "bresenham")
+def test_the_pattern_begins_at_the_first_point(package, ends, dash, algorithm):
+    """Near and far, in either direction, steep and shallow, whatever is clipped away."""
+    fb = package.Framebuffer(WIDTH, HEIGHT)
+    fb.line(*ends, dash=dash, algorithm=algorithm)
+    assert (fb.pixels == definitions.dashed(WIDTH, HEIGHT, *ends, dash)).all()
+    batch = package.Framebuffer(WIDTH, HEIGHT)
+    batch.lines([ends], dash=dash, algorithm=algorithm)
+    assert (batch.pixels == fb.pixels).all()
+
+
+@given(
+    st.tuples(*[st.one_of(near, st.integers(-(2**29), 2**29))] * 4),
+    st.tuples(*[st.integers(0, 8)] * 2, *[st.integers(1, 9)] * 2),
+    algorithms,
+    st.sampled_from([None, (3, 2)]),
+)
+def test_a_clip_takes_away_and_adds_nothing(package, ends, box, algorithm, dash):
+    whole, clipped = (package.Framebuffer(WIDTH, HEIGHT) for _ in range(2))
+    whole.line(*ends, algorithm=algorithm, dash=dash)
+    x, y, w, h = box
+    with clipped.clip(x, y, w, h):
+        clipped.line(*ends, algorithm=algorithm, dash=dash)
+    inside = np.zeros((HEIGHT, WIDTH), bool)
+    inside[y : y + h, x : x + w] = True
+    assert (clipped.pixels == np.where(inside, whole.pixels, 0)).all()
+
+
+@given(
+    st.lists(st.tuples(st.one_of(near, far), st.one_of(near, far)), min_size=2, max_size=5),
+    patterns,
+    st.booleans(),
+    st.sampled_from(["over", "xor"]),
+)
+def test_the_pattern_goes_on_around_corners(package, points, dash, closed, op):
+    ends = list(pairwise(points)) + ([(points[-1], points[0])] if closed and len(points) > 2 else [])
+    wanted = np.zeros((HEIGHT, WIDTH), bool)
+    phase = 0
+    for a, b in ends:
+        wanted |= definitions.dashed(WIDTH, HEIGHT, *a, *b, dash, phase)
+        phase += max(abs(b[0] - a[0]), abs(b[1] - a[1]))
+    fb = package.Framebuffer(WIDTH, HEIGHT)
+    fb.polyline(points, dash=dash, closed=closed, op=op)
+    assert (fb.pixels == wanted).all()
+
+
+@pytest.mark.parametrize("length", [2**29, 2**40, 2**63, 2**80, 2**2000, 1e300])
+@pytest.mark.parametrize("ends", [(0, 4, 12, 4), (-(2**70), 4, 2**70, 4)])
+def test_a_dash_may_be_of_any_length(package, length, ends):
+    for style in ({}, {"width": 3}, {"antialias": package.Supersample(4), "cap": "round"}):
+        for dash in ((length, 3), (3, length)):
+            fb = package.Framebuffer(WIDTH, HEIGHT)
+            fb.line(*ends, dash=dash, **style)
+            fb.lines([ends], dash=dash, **style)
+            fb.polyline([*pairwise(ends[::2] + ends[1::2])][::2], dash=dash, **style)
+            assert fb.pixels[4].all() or length in dash[1:] or ends[0]
+
+
+@pytest.mark.parametrize("join", ["miter", "round", "bevel"])
+@settings(max_examples=50)
+@given(
+    st.lists(st.tuples(in_256ths, in_256ths), min_size=2, max_size=4),
+    st.integers(64, 6 * 256).map(lambda v: v / 256),
+    st.lists(st.integers(256, 6 * 256).map(lambda v: v / 256), min_size=1, max_size=3),
+    st.sampled_from(["butt", "square", "round"]),
+    st.booleans(),
+    samples,
+)
+@example([(2, 4), (10, 4)], 3, [2, 2], "butt", False, (4, "center"))
+@example([(2, 4), (10, 4)], 3, [2, 1.5], "round", False, (4, "center"))
+@example([(2, 2), (10, 2), (10, 7)], 2, [3, 1], "square", True, (2, "corner"))
+def test_thick_dashes_are_the_stroke_cut_along_the_line(package, join, points, width, dash, cap, closed, samples):
+    assume(all(a != b for a, b in pairwise(points)) and points[0] != points[-1])
+    pieces, nearest_end = dashed_stroke(points, width, dash, join, cap, closed)
+    assume(nearest_end > 1 / 64)
+
+    def draw(fb, level, antialias):
+        fb.polyline(points, level, width=width, dash=dash, join=join, cap=cap, closed=closed, antialias=antialias)
+
+    counts = counted(package, draw, *samples)
+    least, most = stroke_bounds(pieces, *samples, tolerance=1.5 * ROUNDING)
+    assert (least <= counts).all()
+    assert (counts <= most).all()
+
+
+@pytest.mark.parametrize("distance", [2**19, 2**40, 2**70])
+@settings(max_examples=25)
+@given(
+    st.sampled_from([(1, 0), (0, -1), (3, 4), (-4, 3), (-5, -12), (8, -15), (-7, 24)]),
+    st.tuples(*[st.integers(0, 8)] * 2),
+    st.integers(1, 5),
+    st.lists(st.integers(1, 5), min_size=2, max_size=2),
+    st.sampled_from(["butt", "round"]),
+)
+def test_thick_dashes_from_far_away_keep_time(package, distance, direction, point, width, dash, cap):
+    """Each step in a direction has a whole length, so that a whole number of periods lies before the picture."""
+    (dx, dy), (x, y) = direction, point
+    period = sum(dash)
+    steps = distance // period * period
+    seen = ceil(24 / (dx * dx + dy * dy) ** 0.5 / period) * period
+    ends = (x - steps * dx, y - steps * dy, x + seen * dx, y + seen * dy)
+
+    def draw(fb, level, antialias):
+        fb.line(*ends, level, width=width, dash=dash, cap=cap, antialias=antialias)
+
+    before = (x - seen * dx, y - seen * dy)
+    pieces, _ = dashed_stroke([before, ends[2:]], width, dash, cap="butt")
+    least, most = stroke_bounds(pieces, 4, "center", tolerance=2 * ROUNDING)
+    counts = counted(package, draw, 4)
+    assert (least <= counts).all()
+    assert (counts <= most).all()
+
+
+@pytest.mark.parametrize("cap", ["butt", "square", "round"])
+@pytest.mark.parametrize("width", [1, 2.5, 300, 2**17, 2**40])
+@pytest.mark.parametrize("reach", [2**17, 2**40, 2**70])
+def test_dashes_out_of_sight_cost_nothing(package, cap, width, reach):
+    """A dash a pixel, from end to end: this ends at once, or never."""
+    fb = package.Framebuffer(WIDTH, HEIGHT)
+    fb.line(-reach, 3, reach, 5, width=width, dash=(1, 1), cap=cap, antialias=package.Supersample(2))
+    fb.polyline([(-reach, 3), (reach, 5), (4, -reach), (2, reach)], width=width, dash=(1, 1), cap=cap)
+    assert fb.pixels.any()
+
+
+def test_dashes_as_a_picture(package):
+    fb = package.Framebuffer(20, 9)
+    fb.line(0, 0, 19, 0, dash=(4, 2))
+    fb.line(19, 2, 0, 2, dash=(4, 2, 1, 2))
+    fb.polyline([(1, 4), (10, 4), (10, 8)], dash=(3, 2))
+    fb.line(13, 7, 19, 4, width=2, dash=(2, 1))
+    assert_pattern(
+        fb,
+        """
+        ####..####..####..##
+        ....................
+        ##..#..####..#..####
+        ....................
+        .###..###.........##
+        ..........#....##.##
+        ..........#..#.##...
+        ..........#.###.....
+        .............#......
+        """,
+    )
+
+
+# -- The digital differential analyzer
+
+
+@given(st.tuples(*[st.one_of(near, far)] * 4))
+@example((-(2**29), -(2**29), 2**29, 2**29 - 1))
+@example((0, 0, 2**29, 2**28 + 1))
+def test_the_dda_rounds_the_exact_line(package, ends):
+    fb = package.Framebuffer(WIDTH, HEIGHT)
+    fb.line(*ends, algorithm="dda")
+    assert (fb.pixels == definitions.bresenham(WIDTH, HEIGHT, *ends)).all()
+
+
+@settings(max_examples=10)
+@given(st.integers(-(2**29), -1), st.integers(0, 30), st.integers(2**16, 2**29), st.integers(-40, 70), st.booleans())
+def test_the_dda_does_so_over_the_widest_picture(package, x1, y1, x2, y2, turned):
+    """The slope's rounding adds up over 65536 steps, and must not decide."""
+    size, ends = (65536, 40), (x1, y1, x2, y2)
+    if turned:
+        size, ends = size[::-1], (y1, x1, y2, x2)
+    dda, bresenham = (package.Framebuffer(*size) for _ in range(2))
+    dda.line(*ends, algorithm="dda")
+    bresenham.line(*ends)
+    assert (dda.pixels == bresenham.pixels).all()
+
+
+@given(st.tuples(*[near] * 4), st.integers(0, 255), st.sampled_from(["over", "xor", "add", "max", "clear"]))
+def test_the_dda_paints_each_pixel_once(package, ends, level, op):
+    before = np.arange(HEIGHT * WIDTH, dtype=np.uint8).reshape(HEIGHT, WIDTH)
+    fb = package.Framebuffer(WIDTH, HEIGHT, depth=8)
+    fb.pixels[...] = before
+    fb.line(*ends, level, algorithm="dda", op=op)
+    wanted = definitions.painted(before, definitions.bresenham(WIDTH, HEIGHT, *ends), 1, level, op, 8)
+    assert (fb.pixels == wanted).all()
