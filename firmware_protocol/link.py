@@ -278,8 +278,8 @@ class HostLink:
             return f"{self._line.name} sends back what it is sent: nothing but a loop-back is connected there"
         if received:
             return (
-                f"something talks on {self._line.name} ({received} bytes in {self.timeout:g} s), and it is not paneldraw's "
-                f"firmware at {BASE_BAUDRATE} baud: check the port, or flash the firmware "
+                f"something talks on {self._line.name} ({received} bytes in {self.timeout:g} s), and it is not "
+                f"paneldraw's firmware at {BASE_BAUDRATE} baud: check the port, or flash the firmware "
                 "(see firmware_protocol/firmware/README.md)"
             )
         return (

@@ -295,7 +295,7 @@ def test_a_gps(path):
 
     with far_end(path, talk):
         before = handles()
-        with pytest.raises(PanelNotFoundError, match="not paneldraw's firmware at 115200 baud: check the port") as caught:
+        with pytest.raises(PanelNotFoundError, match="paneldraw's firmware at 115200 baud: check the port") as caught:
             SerialTransport(str(path), timeout=0.6)
         assert str(path) in str(caught.value)
         assert handles() == before
