@@ -203,20 +203,24 @@ def ellipse() -> str:
 
 def thick() -> str:
     thick, fb = plain()["thick"], plain()["Framebuffer"](13, 11)
-    steps = watch(
-        thick.slab,
-        "spans[2 * row] = max(bound[0], bound[1]) >> 40",
-        lambda: fb.line(2, 2, 10, 8, width=3, cap="butt"),
-        lambda at: (at["y"], *(bound >> 40 for bound in at["bound"]), at),
-    )
-    at = steps[0][-1]
-    steps = [(*step[:5], (max(step[1:3]), min(step[3:5]))) for step in steps]
-    numbers = [
-        (name, f"{at[name]:,}".replace(",", " ")) for name in ("dx", "dy", "squared", "inside", "outside", "whole")
-    ]
-    rows = [(*step[:5], f"{step[5][0]} … {step[5][1] - 1}" if step[5][0] < step[5][1] else "none") for step in steps]
+
+    def draw() -> None:
+        fb.line(2, 2, 10, 8, width=3, cap="butt")
+
+    (at,) = watch(thick.slab, "slack: cython.longlong = lines + 4096", draw)
+    names = ("dx", "dy", "squared", "inside", "outside", "whole")
+    fb.clear()
+    rows = []
+    for y, *bounds in watch(
+        thick._sweep,
+        "first = left + min(0, side_turn)",
+        draw,
+        lambda at: (at["y"], *(at[name] >> 40 for name in ("left", "back", "right", "front"))),
+    ):
+        a, b = max(bounds[:2]), min(bounds[2:])
+        rows.append((y, *bounds, f"{a} … {b - 1}" if a < b else "none"))
     return (
-        table("name|value", [(f"`{name}`", value) for name, value in numbers])
+        table("name|value", [(f"`{name}`", f"{at[name]:,}".replace(",", " ")) for name in names])
         + table("row|left side|left end|right side|right end|columns", rows)
         + panel(fb)
     )
@@ -229,27 +233,47 @@ def ties() -> str:
     return panel(fb)
 
 
+def _supersampled() -> tuple[Any, Callable[[], None]]:
+    """A framebuffer, and the call that draws the line of the examples on it."""
+    fb = plain()["Framebuffer"](8, 3, 4)
+    return fb, lambda: fb.line(0, 0, 7, 2, antialias=plain()["supersample"].Supersample(4))
+
+
 def supersampled_row() -> str:
-    supersample, fb = plain()["supersample"], plain()["Framebuffer"](8, 3, 4)
-    row, spans = watch(
-        supersample.paint,
-        "if first < last:",
-        lambda: fb.line(0, 0, 7, 2, antialias=supersample.Supersample(4)),
-        lambda at: (list(at["row"]), list(at["spans"])),
-    )[1]
-    sums = [sum(row[: x + 1]) for x in range(8)]
-    spans_of = [(k, f"{spans[2 * k]} … {spans[2 * k + 1] - 1}") for k in range(4)]
-    return (
-        table("sub-scanline|sub-pixels inside", spans_of)
-        + table(
-            "pixel|" + "|".join(map(str, range(8))),
-            [
-                ("difference", *row[:8]),
-                ("count of 16", *sums),
-                ("level of 15", *fb.pixels[1]),
-            ],
-        )
-        + panel(fb)
+    thick = plain()["thick"]
+    fb, draw = _supersampled()
+    line = "counts += before[(right >> 40) - x * n] - before[(left >> 40) - x * n]"
+    spans = watch(thick._sweep, line, draw, lambda at: (at["y"], at["left"] >> 40, at["right"] >> 40, at["before"]))
+    before = spans[0][3]
+    rows = []
+    sums = 0
+    for k, (a, b) in enumerate(span[1:3] for span in spans if span[0] == 1):
+        sums += before[b] - before[a]
+        rows.append((f"sub-scanline {k}", f"{a} … {b - 1}", *(before[b] - before[a]).to_bytes(8, "little")))
+    counts = sums.to_bytes(8, "little")
+    heads = "|sub-pixels inside|" + "|".join(map(str, range(8)))
+    return table(heads, [*rows, ("count of 16", "", *counts), ("level of 15", "", *fb.pixels[1])]) + panel(fb)
+
+
+def cells_of_a_row() -> str:
+    supersample = plain()["supersample"]
+    fb, draw = _supersampled()
+    cells = watch(supersample.paint, "if first < last:", draw, lambda at: list(at["cells"]))[0]
+    halves = []
+    for cell in cells[:8]:
+        begun = (cell + (1 << 31)) % (1 << 32) - (1 << 31)
+        halves.append((begun, (cell - begun) >> 32))
+    spans, counts = 0, []
+    for begun, left_out in halves:
+        spans += begun
+        counts.append(4 * spans - left_out)
+    return table(
+        "pixel|" + "|".join(map(str, range(8))),
+        [
+            ("cell", *(f"{begun}, {left_out}" for begun, left_out in halves)),
+            ("count of 16", *counts),
+            ("level of 15", *fb.pixels[0]),
+        ],
     )
 
 
@@ -260,8 +284,9 @@ def levels() -> str:
         for depth in (1, 2, 4, 8):
             surface = (fb := plain()["Framebuffer"](1, 1, depth)).surface
             surface.dip(fb.max_level, 0)
-            surface.row[0] = covered
-            surface.blend(0, 0, 1, 4)
+            surface.count_in(1, 4)
+            surface.cells[0] = covered
+            surface.blend(0, 0, 1)
             row.append(fb.pixels[0, 0])
         rows.append(row)
     return table("counted|depth 1|depth 2|depth 4|depth 8", rows)
@@ -278,14 +303,15 @@ def polygon() -> str:
             for i, edge in enumerate(at["edges"]):
                 edges.append([names[i], corners[i - 1], corners[i], edge.first, edge.end, _step(edge)])
         standing = []
-        for i in at["active"][: at["crossing"]]:
+        for edge in at["active"][: at["crossing"]]:
+            i = at["edges"].index(edge)
             (x1, y1), (x2, y2) = corners[i - 1], corners[i]
             crossing = x1 + Fraction((x2 - x1) * (at["y"] - y1), y2 - y1)
-            standing.append(f"{names[i]}: {float(crossing):.2f} → {at['edges'][i].bound}")
-        a, b = (at["edges"][i].bound for i in at["active"][:2])
+            standing.append(f"{names[i]}: {float(crossing):.2f} → {edge.bound}")
+        a, b = (edge.bound for edge in at["active"][:2])
         return [at["y"], *standing, f"{a} … {b - 1}" if a < b else "none"]
 
-    rows = watch(polygons._fill, "winding = 0", lambda: fb.poly(0, 0, corners, fill=True), look)
+    rows = watch(polygons._fill, "before = active[0].bound", lambda: fb.poly(0, 0, corners, fill=True), look)
     return (
         table("edge|from|to|first row|end row|x a row", edges)
         + table("row|first active|second active|columns", rows)
@@ -294,7 +320,7 @@ def polygon() -> str:
 
 
 def _step(edge: Any) -> str:
-    return f"{edge.step} + {edge.rest_step / edge.divisor:.3f}"
+    return f"{edge.step} + {edge.fraction_step / (1 << 62):.3f}"
 
 
 def joins() -> str:
@@ -325,35 +351,36 @@ def cone_table() -> str:
 
 def cone_row() -> str:
     cone, fb = plain()["cone"], plain()["Framebuffer"](8, 3, 4)
+
+    def look(at: dict[str, Any]) -> tuple[Any, ...]:
+        u, v = at["u"] / at["scale"], at["v"] / at["scale"]
+        known = at["behind_start"] <= at["u"] <= at["before_end"]
+        return at["y"], at["x"], f"{u:.3f}", f"{v:.3f}", "by distance" if known else "four", at["covered"]
+
     steps = watch(
-        cone.strip,
-        "covered = cython.cast(cython.int, floor(share * _STEPS + 0.5))",
-        lambda: fb.line(0, 0, 7, 2, antialias=cone.ConeFilter()),
-        lambda at: (at["y"], at["x"], f"{at['u']:.3f}", f"{at['v']:.3f}", f"{at['share']:.4f}"),
+        cone.strip, "cells[x] = covered - last", lambda: fb.line(0, 0, 7, 2, antialias=cone.ConeFilter()), look
     )
     rows = [(*step[1:], fb.pixels[1, step[1]]) for step in steps if step[0] == 1]
-    return table("x|u|v|volume|level of 15", rows) + panel(fb)
+    return table("x|u|v|look-up|volume in 1024ths|level of 15", rows) + panel(fb)
 
 
 def cone_look_ups() -> str:
     cone, fb = plain()["cone"], plain()["Framebuffer"](8, 3, 4)
-    at = next(
-        at
-        for at in watch(
-            cone.strip,
-            "covered = cython.cast(cython.int, floor(share * _STEPS + 0.5))",
-            lambda: fb.line(0, 0, 7, 2, antialias=cone.ConeFilter()),
-        )
-        if (at["x"], at["y"]) == (0, 0)
-    )
+    at = watch(cone._near_end, "return (", lambda: fb.line(0, 0, 7, 2, antialias=cone.ConeFilter()))[0]
     u1, u0, v1, v0 = at["behind"] - at["u"], at["before"] - at["u"], at["half"] - at["v"], -at["half"] - at["v"]
+    volumes = [at["cone"].volume(u, v) for u, v in ((u1, v1), (u0, v1), (u1, v0), (u0, v0))]
     rows = [
-        (sign, name, f"({u:.3f}, {v:.3f})", f"{at['cone'].volume(u, v):.4f}")
-        for sign, name, u, v in (
-            ("+", "C(u₁, v₁)", u1, v1),
-            ("-", "C(u₀, v₁)", u0, v1),
-            ("-", "C(u₁, v₀)", u1, v0),
-            ("+", "C(u₀, v₀)", u0, v0),
+        (sign, name, f"({u:.3f}, {v:.3f})", f"{volume:.4f}")
+        for (sign, name, u, v), volume in zip(
+            (
+                ("+", "C(u₁, v₁)", u1, v1),
+                ("-", "C(u₀, v₁)", u0, v1),
+                ("-", "C(u₁, v₀)", u1, v0),
+                ("+", "C(u₀, v₀)", u0, v0),
+            ),
+            volumes,
+            strict=True,
         )
     ]
-    return table("|look-up|at|value", [*rows, ("=", "volume", "", f"{at['share']:.4f}")])
+    total = volumes[0] - volumes[1] - volumes[2] + volumes[3]
+    return table("|look-up|at|value", [*rows, ("=", "volume", "", f"{total:.4f}")])

@@ -5,18 +5,22 @@ from __future__ import annotations
 
 import math
 import operator
+from array import array
 from typing import TYPE_CHECKING, Any, SupportsFloat, SupportsIndex, TypeAlias
 
 import cython
 import numpy as np
 from cython.cimports.cpython.long import PyLong_AsLongLongAndOverflow
-from cython.cimports.libc.math import floor
+from cython.cimports.cpython.memoryview import PyMemoryView_GET_BUFFER
 from numpy.typing import NDArray
 
 from paneldraw.raster.cone import SAMPLES
 
-if not cython.compiled:  # cimported in the .pxd, which leaves a user's type checker these
+if cython.compiled:
+    from cython.cimports.paneldraw.raster.floors import floored
+else:  # classes cimported in the .pxd, which leaves a user's type checker these
     from paneldraw.raster.cone import ConeFilter
+    from paneldraw.raster.floors import floored
     from paneldraw.raster.supersample import Supersample
 
 if TYPE_CHECKING:
@@ -42,7 +46,7 @@ FIXED_REACH = cython.declare(cython.longlong, 1 << 18)
 # Dashes longer than any path, in 256ths.
 _ENDLESS = 1 << 100
 
-_ALIASED = Supersample(1)
+ALIASED = Supersample(1)
 _WEIGHED = Supersample(SAMPLES)
 
 
@@ -70,10 +74,73 @@ def quick_256ths(value: Any) -> cython.longlong:
         if not -FIXED_REACH <= exact <= FIXED_REACH:
             return FAR
         exact *= 256
-        below: cython.longlong = cython.cast(cython.longlong, floor(exact))
+        below: cython.longlong = floored(exact)
         return below + (exact - below >= 0.5)
     number: cython.longlong = quick(value)
     return number * 256 if -FIXED_REACH <= number <= FIXED_REACH else FAR
+
+
+@cython.cfunc
+def quick_rows(source: Any, columns: cython.Py_ssize_t, unit: cython.longlong, reach: cython.longlong) -> Any:
+    """The rows of an array of numbers, as a bytearray of int64, in 1 / unit of a pixel to the nearest, halves upward.
+
+    An array is what exports a buffer of machine numbers, of shape (n, columns); points, two columns, may also come in
+    turn. None if `source` is nothing of the kind or holds a number beyond +-reach: then others look what it is.
+    """
+    if not cython.compiled:
+        return None
+    try:
+        memory = memoryview(source)
+    except (TypeError, ValueError, BufferError):
+        return None
+    view = PyMemoryView_GET_BUFFER(memory)
+    flat: cython.bint = view.ndim == 1 and columns == 2 and view.shape[0] % 2 == 0
+    if not flat and (view.ndim != 2 or view.shape[1] != columns):
+        return None
+    rows: cython.Py_ssize_t = view.shape[0] // 2 if flat else view.shape[0]
+    across: cython.Py_ssize_t = view.strides[0] if flat else view.strides[1]
+    down: cython.Py_ssize_t = 2 * view.strides[0] if flat else view.strides[0]
+    kind: cython.char = view.format[0] if view.format[1] == 0 else 0
+    start: cython.p_char = cython.cast(cython.p_char, view.buf)
+    numbers = bytearray(8 * columns * rows)
+    to: cython.p_longlong = pointer_to_int64(numbers)
+    row: cython.Py_ssize_t
+    column: cython.Py_ssize_t
+    for row in range(rows):
+        for column in range(columns):
+            if not _read(start + row * down + column * across, kind, unit, reach, to + row * columns + column):
+                return None
+    return numbers
+
+
+@cython.cfunc
+@cython.inline
+@cython.exceptval(check=False)
+def _read(
+    at: cython.p_char, kind: cython.char, unit: cython.longlong, reach: cython.longlong, to: cython.p_longlong
+) -> cython.bint:
+    """Write the number at an address, of the kind that a buffer's format names; return whether that was possible."""
+    number: cython.longlong
+    if kind == b"l" or kind == b"q":
+        number = cython.cast(cython.p_longlong, at)[0]
+    elif kind == b"i":
+        number = cython.cast(cython.p_int, at)[0]
+    elif kind == b"h":
+        number = cython.cast(cython.p_short, at)[0]
+    elif kind == b"d" or kind == b"f":
+        exact: cython.double = (
+            cython.cast(cython.p_double, at)[0] if kind == b"d" else cython.cast(cython.p_float, at)[0]
+        )
+        if not -reach <= exact <= reach:
+            return False
+        exact *= unit
+        number = floored(exact)
+        to[0] = number + (exact - number >= 0.5)
+        return True
+    else:
+        return False
+    to[0] = number * unit
+    return -reach <= number <= reach
 
 
 @cython.cclass
@@ -93,12 +160,17 @@ class Points:
     def __init__(self, name: Any, source: Any, fixed: cython.bint) -> None:
         i: cython.Py_ssize_t
         number: cython.longlong
+        self.exact = None
+        self.kept = quick_rows(source, 2, 256 if fixed else 1, FIXED_REACH if fixed else NEAR)
+        if self.kept is not None:
+            self.values = pointer_to_int64(self.kept)
+            self.count = len(self.kept) // 16
+            return
         items = in_turn(name, source)
         self.count = len(items) // 2
-        self.exact = None
         if cython.compiled:
-            self.kept = bytearray(8 * len(items) + 8)
-            self.values = cython.cast(cython.p_longlong, cython.cast(cython.p_char, self.kept))
+            self.kept = bytearray(8 * len(items))
+            self.values = pointer_to_int64(self.kept)
         else:
             self.values = [0] * len(items)
         for i in range(len(items)):
@@ -185,7 +257,7 @@ def not_negative(name: str, number: int) -> int:
 def as_samples(antialias: Any) -> Supersample:
     """A call's anti-aliasing as the samples to take: None is one a pixel, and a filter weighs 16 x 16."""
     if antialias is None:
-        return _ALIASED
+        return ALIASED
     if isinstance(antialias, ConeFilter):
         return _WEIGHED
     if not isinstance(antialias, Supersample):
@@ -224,10 +296,10 @@ def dash_lengths(dash: Any) -> list[Int]:
     return lengths if len(lengths) % 2 == 0 else lengths + lengths
 
 
-def dash_steps(lengths: list[Int]) -> NDArray[np.int64]:
-    """The lengths of a pattern in whole pixels; those longer than any path that is near are cut to what C holds."""
+def dash_steps(lengths: list[Int]) -> bytearray:
+    """The lengths of a pattern in whole pixels, as int64; those longer than any path that is near are cut."""
     longest = (1 << 62) // max(len(lengths), 1)
-    return np.array([min((length + 128) >> 8, longest) for length in lengths], np.int64)
+    return bytearray(array("q", [min((length + 128) >> 8, longest) for length in lengths]))
 
 
 def line_width(width: Any) -> int:
@@ -255,8 +327,8 @@ def table(name: str, rows: Any, columns: int) -> NDArray[Any]:
     return table
 
 
-def integers(table: NDArray[Any], unit: int, limit: int) -> NDArray[np.int64] | None:
-    """The numbers in 1 / unit pixels, to the nearest; None if one of them is beyond +-limit or of no C type."""
+def integers(table: NDArray[Any], unit: int, limit: int) -> bytearray | None:
+    """The numbers in 1 / unit pixels, to the nearest, as int64; None if one is beyond +-limit or of no C type."""
     if table.dtype.kind == "O":
         return None
     if table.dtype.kind == "f":
@@ -268,17 +340,15 @@ def integers(table: NDArray[Any], unit: int, limit: int) -> NDArray[np.int64] | 
         table = np.floor(scaled)
         table += scaled - table >= 0.5
         unit = 1
-    table = np.ascontiguousarray(table, np.int64)
-    return table if unit == 1 else table * unit
+    return bytearray((table.astype(np.int64) * unit).tobytes())
 
 
 @cython.cfunc
-def pointer_to_int64(array: Any) -> cython.p_longlong:
-    """The numbers of a contiguous int64 array."""
+def pointer_to_int64(numbers: bytearray) -> cython.p_longlong:
+    """The numbers that lie in a bytearray."""
     if cython.compiled:
-        address: cython.size_t = array.__array_interface__["data"][0]
-        return cython.cast(cython.p_longlong, address)
-    return array.ravel().tolist()
+        return cython.cast(cython.p_longlong, cython.cast(cython.p_char, numbers))
+    return array("q", numbers)
 
 
 @cython.cfunc

@@ -32,13 +32,23 @@ if cython.compiled:
         pointer_to_int64,
         quick,
         quick_256ths,
+        quick_rows,
     )
     from cython.cimports.paneldraw.raster.cone import ConeFilter, strip
     from cython.cimports.paneldraw.raster.lines import bresenham, dashed, far
     from cython.cimports.paneldraw.raster.supersample import Supersample
     from cython.cimports.paneldraw.raster.thick import slab, slab_far
 else:
-    from paneldraw.framebuffer.arguments import FAR, FIXED_REACH, NEAR, Points, pointer_to_int64, quick, quick_256ths
+    from paneldraw.framebuffer.arguments import (
+        FAR,
+        FIXED_REACH,
+        NEAR,
+        Points,
+        pointer_to_int64,
+        quick,
+        quick_256ths,
+        quick_rows,
+    )
     from paneldraw.framebuffer.paths import Paths
     from paneldraw.raster.cone import ConeFilter, strip
     from paneldraw.raster.lines import bresenham, dashed, far
@@ -211,6 +221,7 @@ class Lines(Paths):
         """The rectangle around a line; lengths in 256ths."""
         if isinstance(antialias, ConeFilter):
             cone: ConeFilter = antialias
+            cone.fit(width / 256.0)
             strip(self.surface, cone, x1 / 256.0, y1 / 256.0, x2 / 256.0, y2 / 256.0, width / 256.0, square)
         else:
             samples: Supersample = antialias if isinstance(antialias, Supersample) else as_samples(antialias)
@@ -252,25 +263,27 @@ class Lines(Paths):
         ........
         ########
         """
-        rows = table("segments", segments, 4)
         if antialias is ...:
             antialias = self._antialias
         self._dip(c, op)
-        shape: cython.int = choice("cap", cap, CAPS)
-        dda: cython.bint = choice("algorithm", algorithm, _ALGORITHMS)
+        shape: cython.int = _SQUARE if cap == "square" else choice("cap", cap, CAPS)
+        dda: cython.bint = False if algorithm == "bresenham" else choice("algorithm", algorithm, _ALGORITHMS)
         as_samples(antialias)
         pattern = dash_lengths(dash)
-        wide = line_width(width)
+        wide = 256 if width == 1 else line_width(width)
         thin: cython.bint = antialias is None and wide == 256
-        numbers = integers(rows, 1 if thin else 256, NEAR if thin else FIXED_REACH * 256)
+        unit: cython.longlong = 1 if thin else 256
+        reach: cython.longlong = NEAR if thin else FIXED_REACH
+        numbers = quick_rows(segments, 4, unit, reach)
+        if numbers is None:
+            rows = table("segments", segments, 4)
+            numbers = integers(rows, unit, reach * unit)
         if numbers is None or wide > _WIDE or (not thin and (pattern or shape == _ROUND)):
             style: Any = {"width": width, "cap": cap, "dash": dash, "algorithm": algorithm, "antialias": antialias}
-            for x1, y1, x2, y2 in rows.tolist():
+            for x1, y1, x2, y2 in table("segments", segments, 4).tolist():
                 self.line(x1, y1, x2, y2, c, op=op, **style)
-            return
-        lengths = dash_steps(pattern)
-        if thin:
-            self._thin_lines(numbers, lengths, dda)
+        elif thin:
+            self._thin_lines(numbers, dash_steps(pattern), dda)
         else:
             self._thick_lines(numbers, wide, shape == _SQUARE, antialias)
 
@@ -279,8 +292,8 @@ class Lines(Paths):
         row: cython.Py_ssize_t
         p: cython.p_longlong = pointer_to_int64(numbers)
         pattern: cython.p_longlong = pointer_to_int64(lengths)
-        count: cython.Py_ssize_t = len(lengths)
-        for row in range(0, 4 * len(numbers), 4):
+        count: cython.Py_ssize_t = len(lengths) // 8
+        for row in range(0, len(numbers) // 8, 4):
             if count or dda:
                 dashed(self.surface, p[row], p[row + 1], p[row + 2], p[row + 3], pattern, count, 0, dda)
             else:
@@ -290,7 +303,7 @@ class Lines(Paths):
     def _thick_lines(self, numbers: Any, width: cython.longlong, square: cython.bint, antialias: Any) -> Any:
         row: cython.Py_ssize_t
         p: cython.p_longlong = pointer_to_int64(numbers)
-        for row in range(0, 4 * len(numbers), 4):
+        for row in range(0, len(numbers) // 8, 4):
             self._rectangle(p[row], p[row + 1], p[row + 2], p[row + 3], width, square, antialias)
 
     def points(self, xy: ArrayLike, c: Level = None, *, op: Str = "over") -> None:
@@ -305,14 +318,15 @@ class Lines(Paths):
         #...
         ...#
         """
-        rows = table("xy", xy, 2)
         self._dip(c, op)
-        numbers = integers(rows, 1, NEAR)
+        numbers = quick_rows(xy, 2, 1, NEAR) if getattr(xy, "ndim", 0) == 2 else None
         if numbers is None:
-            for x, y in rows.tolist():
+            numbers = integers(table("xy", xy, 2), 1, NEAR)
+        if numbers is None:
+            for x, y in table("xy", xy, 2).tolist():
                 self.pixel(x, y, self.surface.max_level if c is None else c, op=op)
             return
         row: cython.Py_ssize_t
         points: cython.p_longlong = pointer_to_int64(numbers)
-        for row in range(0, 2 * len(numbers), 2):
+        for row in range(0, len(numbers) // 8, 2):
             self.surface.point(points[row], points[row + 1])

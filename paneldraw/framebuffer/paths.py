@@ -9,7 +9,7 @@ from typing import Any
 import cython
 import numpy as np
 
-from paneldraw.framebuffer.arguments import LARGEST, as_samples, choice, dash_steps, size
+from paneldraw.framebuffer.arguments import ALIASED, LARGEST, as_samples, choice, dash_steps, size
 from paneldraw.raster.far import cut_path, pairs
 from paneldraw.raster.surface import OPS
 
@@ -68,6 +68,8 @@ class Paths:
     @cython.cfunc
     def _begin(self, antialias: Any) -> Supersample:
         """Prepare to paint a shape with this anti-aliasing; returns the samples to take. `_end` must follow."""
+        if antialias is None:
+            return ALIASED
         samples = as_samples(antialias)
         if isinstance(antialias, ConeFilter):
             cone: ConeFilter = antialias
@@ -102,7 +104,7 @@ class Paths:
             outline.count = path.count
             outline.closed = closed
             outline.dda = dda
-            outline.lengths = len(lengths)
+            outline.lengths = len(lengths) // 8
             outline.pattern = pointer_to_int64(lengths)
             if path.count:
                 outline.paint(self.surface, self.surface.top, self.surface.bottom)
@@ -203,8 +205,9 @@ class Paths:
             points[2 * count + 1] = points[1]
             count += 1
             cap = 0
-        # What is near the window counts as well: reference points at its edge, and as far as a filter reaches.
-        left, top = 256 * self.surface.left - _NEARBY, 256 * self.surface.top - _NEARBY
-        right, bottom = 256 * self.surface.right + _NEARBY, 256 * self.surface.bottom + _NEARBY
+        # Dashes are made near the surface, not the window: how they are cut there does not depend on what is clipped.
+        # Reference points at its edge count as well, and what a filter reaches.
+        left, top = -_NEARBY, -_NEARBY
+        right, bottom = 256 * self.surface.width + _NEARBY, 256 * self.surface.height + _NEARBY
         box = (left, top, right, bottom)
         Dashes(contours, dash, distance % sum(dash), box, 4 * width, count).stroke(points, count, width, cap, join)

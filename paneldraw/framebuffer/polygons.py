@@ -161,13 +161,15 @@ class Polygons(Lines):
         ..###..
         ...#...
         """
-        nonzero: cython.bint = choice("rule", rule, _RULES)
+        nonzero: cython.bint = False if rule == "even-odd" else choice("rule", rule, _RULES)
         self._dip(c, op)
         if not (x == 0 and y == 0):
             coords = _shifted(real("x", x), real("y", y), coords)
         if fill:
-            choice("join", join, JOINS)
-            line_width(width)
+            if join != "miter":
+                choice("join", join, JOINS)
+            if width != 1:
+                line_width(width)
             corners = Points("coords", coords, True)
             if not _is_flat(corners):
                 self._fill_polygon(corners, nonzero, self._antialias if antialias is ... else antialias)

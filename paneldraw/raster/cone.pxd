@@ -6,11 +6,16 @@ cdef class ConeFilter:
     cdef readonly int resolution
     cdef object kept, kept_kernel
     cdef double *volumes
+    cdef dict bands
+    cdef double fitted, nearest
+    cdef int *band
+    cdef int farthest
     cdef int *kernel
     cdef int reach
 
     cdef double volume(self, double u, double v) noexcept nogil
     cdef double profile(self, double v) noexcept nogil
+    cdef object fit(self, double width)
     cdef object begin(self, Surface surface)
 
 cdef void strip(

@@ -8,6 +8,7 @@ pixel, each sample weighed by the cone's height above it.
 
 from __future__ import annotations
 
+from array import array
 from functools import lru_cache
 from typing import Any
 
@@ -15,11 +16,13 @@ import cython
 import numpy as np
 
 if cython.compiled:
-    from cython.cimports.libc.math import ceil, floor, hypot
+    from cython.cimports.libc.math import ceil, hypot
+    from cython.cimports.paneldraw.raster.floors import floored
     from cython.cimports.paneldraw.raster.surface import Surface
 else:
-    from math import ceil, floor, hypot
+    from math import ceil, hypot
 
+    from paneldraw.raster.floors import floored
     from paneldraw.raster.surface import Surface
 
 #: Sub-pixels along each side of a pixel, for shapes that are not lines.
@@ -30,6 +33,13 @@ _WHOLE = 1 << 20
 
 #: In how many steps coverage is handed on; `Surface.blend` divides exactly by no more.
 _STEPS = cython.declare(cython.int, 1024)
+
+# Entries a radius of the tables by distance, and the fraction of an entry that a distance is known to.
+_FINE = cython.declare(cython.int, 256)
+_PART = cython.declare(cython.longlong, 1 << 24)
+
+# Farther than anything on a surface.
+_FAR = cython.declare(cython.double, 1e9)
 
 #: The height at a distance from the middle, in radii; made to have volume 1 afterwards.
 _HEIGHTS = {
@@ -95,6 +105,8 @@ class ConeFilter:
         self.resolution = resolution
         self.reach = cython.cast(cython.int, ceil(radius + 0.5)) - 1
         self.kept = _volumes(filter, resolution)
+        self.fitted = 0
+        self.bands: dict[float, Any] = {}
         self.kept_kernel: Any = None
         if cython.compiled:
             address: cython.size_t = self.kept.__array_interface__["data"][0]
@@ -130,8 +142,8 @@ class ConeFilter:
         scale: cython.double = self.resolution / self.radius
         u = min(max((u + self.radius) * scale, 0), steps)
         v = min(max((v + self.radius) * scale, 0), steps)
-        i: cython.int = min(cython.cast(cython.int, floor(u)), steps - 1)
-        j: cython.int = min(cython.cast(cython.int, floor(v)), steps - 1)
+        i: cython.int = min(floored(u), steps - 1)
+        j: cython.int = min(floored(v), steps - 1)
         u -= i
         v -= j
         at: cython.int = i * (steps + 1) + j
@@ -148,9 +160,39 @@ class ConeFilter:
         """C(radius, v): the volume on one side of an endless straight edge."""
         steps: cython.int = 2 * self.resolution
         v = min(max((v + self.radius) * self.resolution / self.radius, 0), steps)
-        j: cython.int = min(cython.cast(cython.int, floor(v)), steps - 1)
+        j: cython.int = min(floored(v), steps - 1)
         at: cython.int = steps * (steps + 1) + j
         return self.volumes[at] + (self.volumes[at + 1] - self.volumes[at]) * (v - j)
+
+    @cython.cfunc
+    def fit(self, width: cython.double) -> Any:
+        """Have `band` be the coverage by the distance from the middle of a line of that width, away from its ends.
+
+        Its entries are a radius / `_FINE` apart and begin at `nearest`; closer to the middle the first one holds. The
+        last one is 0. The bands of the last few widths are kept.
+        """
+        t: cython.int
+        half: cython.double = width / 2
+        if width == self.fitted:
+            return
+        self.nearest = max(half - self.radius, 0)
+        self.farthest = cython.cast(cython.int, ceil((half + self.radius - self.nearest) * _FINE / self.radius))
+        band = self.bands.get(width)
+        if band is None:
+            band = array("i", [0]) * (self.farthest + 1)
+            for t in range(self.farthest):
+                distance: cython.double = self.nearest + t * self.radius / _FINE
+                share: cython.double = self.profile(half - distance) - self.profile(-half - distance)
+                band[t] = floored(share * _STEPS + 0.5)
+            if len(self.bands) == 8:
+                del self.bands[next(iter(self.bands))]
+            self.bands[width] = band
+        if cython.compiled:
+            address: cython.size_t = band.buffer_info()[0]
+            self.band = cython.cast(cython.p_int, address)
+        else:
+            self.band = band
+        self.fitted = width
 
     @cython.cfunc
     def begin(self, surface: Surface) -> Any:
@@ -220,68 +262,81 @@ def strip(
 ) -> cython.void:
     """The rectangle of `width` around a line, all in pixels, filtered; with `square` half a width longer at both ends.
 
-    A pixel's distance along the line is u and across it v. Away from the ends the table's last column, the volume on
-    one side of a straight edge, is all that is needed.
+    A pixel's distance along the line is u and across it v. Away from the ends, where the filter reaches neither, the
+    coverage depends on v alone; it is in the table that `ConeFilter.fit` made for this width.
     """
     radius: cython.double = cone.radius
     length: cython.double = hypot(x2 - x1, y2 - y1)
-    ux: cython.double = 1
-    uy: cython.double = 0
-    if length > 0:
-        ux = (x2 - x1) / length
-        uy = (y2 - y1) / length
+    ux: cython.double = (x2 - x1) / length if length > 0 else 1
+    uy: cython.double = (y2 - y1) / length if length > 0 else 0
     half: cython.double = width / 2
     before: cython.double = -half if square else 0
     behind: cython.double = length - before
-    # Where the filter touches the rectangle.
+    # The rows that the filter touches the rectangle in; in a row, what is between the sides and between the ends.
     rise: cython.double = abs(ux) * (half + radius) + abs(uy) * (radius - before)
-    top: cython.Py_ssize_t = cython.cast(cython.Py_ssize_t, max(ceil(min(y1, y2) - rise), surface.top))
-    bottom: cython.Py_ssize_t = cython.cast(cython.Py_ssize_t, min(floor(max(y1, y2) + rise) + 1, surface.bottom))
-    x: cython.Py_ssize_t
+    top: cython.Py_ssize_t = max(surface.top, -floored(rise - min(y1, y2)))
+    bottom: cython.Py_ssize_t = min(surface.bottom, floored(max(y1, y2) + rise) + 1)
+    side_slope: cython.double = ux / uy if uy != 0 else 0
+    side: cython.double = abs((half + radius) / uy) if uy != 0 else _FAR
+    end_slope: cython.double = -uy / ux if ux != 0 else 0
+    back: cython.double = min((before - radius) / ux, (behind + radius) / ux) if ux != 0 else -_FAR
+    front: cython.double = max((before - radius) / ux, (behind + radius) / ux) if ux != 0 else _FAR
+    # u and v in fixed-point numbers: entries of the table, and their parts. Steps of whole numbers add up to the same,
+    # wherever a window lets a row begin.
+    scale: cython.double = _FINE / radius * _PART
+    along: cython.longlong = floored(ux * scale)
+    across: cython.longlong = floored(uy * scale)
+    behind_start: cython.longlong = floored((before + radius) * scale)
+    before_end: cython.longlong = floored((behind - radius) * scale)
+    origin: cython.Py_ssize_t = floored(x1)
+    nearest: cython.longlong = floored(cone.nearest * scale) - _PART // 2
+    farthest: cython.longlong = cone.farthest
+    band: cython.p_int = cone.band
+    cells: cython.p_longlong = surface.cells
+    surface.count_in(1, _STEPS)
     y: cython.Py_ssize_t
-    left: cython.double
-    right: cython.double
-    u: cython.double
-    v: cython.double
-    share: cython.double
-    covered: cython.int
-    last: cython.int
-    row: cython.p_int = surface.row
+    x: cython.Py_ssize_t
+    u: cython.longlong
+    v: cython.longlong
+    covered: cython.longlong
+    last: cython.longlong
     for y in range(top, bottom):
-        left = surface.left
-        right = surface.right - 1
-        u = uy * (y - y1)
-        v = ux * (y - y1)
-        if uy != 0:
-            left = max(left, x1 + (v - (half + radius if uy > 0 else -half - radius)) / uy)
-            right = min(right, x1 + (v + (half + radius if uy > 0 else -half - radius)) / uy)
-        elif abs(v) >= half + radius:
+        middle: cython.double = x1 + side_slope * (y - y1)
+        foot: cython.double = x1 + end_slope * (y - y1)
+        first: cython.Py_ssize_t = -floored(min(side - middle, -back - foot, -surface.left))
+        end: cython.Py_ssize_t = floored(min(middle + side, foot + front, surface.right - 1)) + 1
+        if first >= end:
             continue
-        if ux != 0:
-            left = max(left, x1 + ((before - radius if ux > 0 else behind + radius) - u) / ux)
-            right = min(right, x1 + ((behind + radius if ux > 0 else before - radius) - u) / ux)
-        elif not before - radius < u < behind + radius:
-            continue
-        if left > right:
-            continue
-        first: cython.Py_ssize_t = cython.cast(cython.Py_ssize_t, ceil(left))
-        end: cython.Py_ssize_t = cython.cast(cython.Py_ssize_t, floor(right)) + 1
-        u += ux * (first - x1)
-        v -= uy * (first - x1)
+        u = floored((ux * (origin - x1) + uy * (y - y1)) * scale) + along * (first - origin)
+        v = floored((ux * (y - y1) - uy * (origin - x1)) * scale) - across * (first - origin)
         last = 0
         for x in range(first, end):
-            share = cone.profile(half - v) - cone.profile(-half - v)
-            if u < before + radius or u > behind - radius:
-                share = (
-                    cone.volume(behind - u, half - v)
-                    - cone.volume(before - u, half - v)
-                    - cone.volume(behind - u, -half - v)
-                    + cone.volume(before - u, -half - v)
-                )
-            covered = cython.cast(cython.int, floor(share * _STEPS + 0.5))
-            row[x] = covered - last
+            if behind_start <= u <= before_end:
+                covered = band[min(max((abs(v) - nearest) >> 24, 0), farthest)]
+            else:
+                covered = floored(_near_end(cone, u / scale, v / scale, before, behind, half) * _STEPS + 0.5)
+            cells[x] = covered - last
             last = covered
-            u += ux
-            v -= uy
-        if first < end:
-            surface.blend(y, first, end, _STEPS)
+            u += along
+            v -= across
+        surface.blend(y, first, end)
+
+
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def _near_end(
+    cone: ConeFilter,
+    u: cython.double,
+    v: cython.double,
+    before: cython.double,
+    behind: cython.double,
+    half: cython.double,
+) -> cython.double:
+    """The volume over a rectangle, by four look-ups."""
+    return (
+        cone.volume(behind - u, half - v)
+        - cone.volume(before - u, half - v)
+        - cone.volume(behind - u, -half - v)
+        + cone.volume(before - u, -half - v)
+    )

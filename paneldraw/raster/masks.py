@@ -29,13 +29,14 @@ def stamp(
     column: cython.Py_ssize_t
     covered: cython.int
     before: cython.int
-    row: cython.p_int = surface.row
+    cells: cython.p_longlong = surface.cells
     if first >= last:
         return
+    surface.count_in(1, 255)
     for line in range(max(0, surface.top - y), min(height, surface.bottom - y)):
         before = 0
         for column in range(first, last):
             covered = mask[line * width + column]
-            row[x + column] = covered - before
+            cells[x + column] = covered - before
             before = covered
-        surface.blend(y + line, x + first, x + last, 255)
+        surface.blend(y + line, x + first, x + last)

@@ -12,34 +12,29 @@ from typing import Any
 import cython
 
 if cython.compiled:
+    from cython.cimports.paneldraw.raster.floors import floored
     from cython.cimports.paneldraw.raster.supersample import paint
     from cython.cimports.paneldraw.raster.surface import Surface
 else:
+    from paneldraw.raster.floors import floored
     from paneldraw.raster.supersample import paint
     from paneldraw.raster.surface import Surface
 
-#: An edge, and where it stands in the present sub-scanline: `bound` is the first sub-pixel at or right of it. From one
-#: sub-scanline to the next it moves by a constant fraction, which is kept as a quotient and a remainder.
+#: An edge of the sub-scanlines ``first <= h < end``, and where it stands in the present one: `bound` is the first
+#: sub-pixel at or right of it. From one sub-scanline to the next it moves by a constant, whose whole part is `step`.
+#: Fractions come in 62 bits. `next` is an edge that starts in the same row of pixels.
 Edge = cython.struct(
-    first=cython.longlong,
-    end=cython.longlong,
     bound=cython.longlong,
-    rest=cython.longlong,
+    fraction=cython.longlong,
     step=cython.longlong,
-    rest_step=cython.longlong,
-    divisor=cython.longlong,
+    fraction_step=cython.longlong,
+    first=cython.int,
+    end=cython.int,
     winding=cython.int,
     next=cython.int,
 )
 
-
-@cython.cfunc
-@cython.inline
-@cython.nogil
-@cython.exceptval(check=False)
-def _floor_div(a: cython.longlong, b: cython.longlong) -> cython.longlong:
-    """Floor of a / b for b > 0; a division in C truncates."""
-    return a // b if a >= 0 else -((b - 1 - a) // b)
+_ONE = cython.declare(cython.double, float(1 << 62))
 
 
 @cython.cfunc
@@ -60,24 +55,24 @@ def polygons(
     total: cython.Py_ssize_t = ends[contours - 1] if contours else 0
     rows: cython.Py_ssize_t = surface.bottom - surface.top
     edges: cython.pointer[Edge]
-    starting: cython.p_int
-    active: cython.p_int
+    active: cython.pointer[cython.pointer[Edge]]
     spans: cython.p_Py_ssize_t
+    starting: cython.p_int
     if cython.compiled:
         surface.make_room(
-            total * cython.sizeof(Edge)
+            total * (cython.sizeof(Edge) + cython.sizeof(cython.p_int))
             + n * (total + 2) * cython.sizeof(cython.Py_ssize_t)
-            + (rows + total) * cython.sizeof(cython.int)
+            + rows * cython.sizeof(cython.int)
         )
         edges = cython.cast(cython.pointer(Edge), surface.room)
-        spans = cython.cast(cython.p_Py_ssize_t, edges + total)
+        active = cython.cast(cython.pointer(cython.pointer(Edge)), edges + total)
+        spans = cython.cast(cython.p_Py_ssize_t, active + total)
         starting = cython.cast(cython.p_int, spans + n * (total + 2))
-        active = starting + rows
     else:
         edges = [Edge() for _ in range(total)]
+        active = [None] * total
         spans = [0] * (n * (total + 2))
         starting = [0] * rows
-        active = [0] * total
     if _collect(surface, points, ends, contours, n, corner, edges, starting):
         _fill(surface, nonzero, n, edges, starting, active, spans)
 
@@ -97,16 +92,17 @@ def _collect(
 ) -> cython.int:
     """Find the edges that cross visible sub-scanlines; chain those that start in the same row. Returns their number."""
     middle: cython.longlong = 256 * (n if corner else n - 1)
+    top: cython.longlong = surface.top * n
+    bottom: cython.longlong = surface.bottom * n
     count: cython.int = 0
     contour: cython.Py_ssize_t
     i: cython.Py_ssize_t
     before: cython.Py_ssize_t
     start: cython.Py_ssize_t = 0
-    winding: cython.int
     row: cython.longlong
+    winding: cython.int
     first: cython.longlong
     end: cython.longlong
-    rest: cython.longlong
     for row in range(surface.bottom - surface.top):
         starting[row] = -1
     for contour in range(contours):
@@ -122,28 +118,52 @@ def _collect(
                 x1, y1, x2, y2 = x2, y2, x1, y1
                 winding = -1
             # Sub-scanline h lies at 512 h - middle, in 512ths of a sub-pixel.
-            first = max(_floor_div(2 * n * y1 + middle + 511, 512), surface.top * n)
-            end = min(_floor_div(2 * n * y2 + middle + 511, 512), surface.bottom * n)
+            first = max((2 * n * y1 + middle + 511) >> 9, top)
+            end = min((2 * n * y2 + middle + 511) >> 9, bottom)
             if first >= end:
                 continue
-            dx: cython.longlong = x2 - x1
-            dy: cython.longlong = y2 - y1
-            rest = dx * (512 * first - middle - 2 * n * y1) + dy * (2 * n * x1 + middle)
-            rest = _floor_div(rest - 1, 512) + dy
+            _place(cython.address(edges[count]), x1, y1, x2 - x1, y2 - y1, first, n, middle)
             edges[count].first = first
             edges[count].end = end
-            edges[count].divisor = dy
             edges[count].winding = winding
-            edges[count].bound = _floor_div(rest, dy)
-            edges[count].rest = rest - edges[count].bound * dy
-            edges[count].step = _floor_div(dx, dy)
-            edges[count].rest_step = dx - edges[count].step * dy
-            row = _floor_div(first, n) - surface.top
+            row = (first - top) // n
             edges[count].next = starting[row]
             starting[row] = count
             count += 1
         start = ends[contour]
     return count
+
+
+@cython.cfunc
+@cython.inline
+@cython.nogil
+@cython.exceptval(check=False)
+def _place(
+    edge: cython.pointer[Edge],
+    x1: cython.longlong,
+    y1: cython.longlong,
+    dx: cython.longlong,
+    dy: cython.longlong,
+    first: cython.longlong,
+    n: cython.int,
+    middle: cython.longlong,
+) -> cython.void:
+    """Find the bound in the first sub-scanline, and its step.
+
+    A bound is a whole number or at least 1 / dy away from one. It is taken a quarter of that too large, and all errors
+    of rounding are smaller, so that its whole part is exact.
+    """
+    rest: cython.longlong = dx * (512 * first - middle - 2 * n * y1) + dy * (2 * n * x1 + middle)
+    bound: cython.double = (((rest - 1) >> 9) + dy + 0.25) / dy
+    step: cython.double = dx / cython.cast(cython.double, dy)
+    edge.bound = floored(bound)
+    edge.step = floored(step)
+    if cython.compiled:
+        edge.fraction = cython.cast(cython.longlong, (bound - edge.bound) * _ONE)
+        edge.fraction_step = cython.cast(cython.longlong, (step - edge.step) * _ONE)
+    else:
+        edge.fraction = int((bound - edge.bound) * _ONE)
+        edge.fraction_step = int((step - edge.step) * _ONE)
 
 
 @cython.cfunc
@@ -155,72 +175,100 @@ def _fill(
     n: cython.int,
     edges: cython.pointer[Edge],
     starting: cython.p_int,
-    active: cython.p_int,
+    active: cython.pointer[cython.pointer[Edge]],
     spans: cython.p_Py_ssize_t,
 ) -> cython.void:
     """Keep the edges of the present row in the order of their crossings; between these lie the spans."""
     y: cython.Py_ssize_t
-    row: cython.longlong
+    row: cython.int
     crossing: cython.int = 0
     count: cython.int
     start: cython.int
-    edge: cython.int
-    gap: cython.int
+    next: cython.int
     i: cython.int
     j: cython.int
     winding: cython.int
-    inside: cython.bint
-    was_inside: cython.bint
+    outside: cython.bint
+    bound: cython.longlong
+    before: cython.longlong
+    edge: cython.pointer[Edge]
+    one: cython.longlong = 1
+    whole: cython.longlong = (one << 62) - 1
+    # The first row above which no active edge ends, and whether the edges are in order.
+    soonest: cython.int = 0
+    in_order: cython.bint = True
     for y in range(surface.top, surface.bottom):
-        # Edges that ended above leave; those that start in this row join.
-        j = 0
-        for i in range(crossing):
-            if edges[active[i]].end > y * n:
+        if soonest <= y * n:
+            soonest = surface.bottom * n + 1
+            j = 0
+            for i in range(crossing):
                 active[j] = active[i]
-                j += 1
-        crossing = j
-        edge = starting[y - surface.top]
-        while edge >= 0:
+                if active[i].end > y * n:
+                    soonest = min(soonest, active[i].end)
+                    j += 1
+            crossing = j
+        next = starting[y - surface.top]
+        while next >= 0:
+            edge = cython.address(edges[next])
             active[crossing] = edge
             crossing += 1
-            edge = edges[edge].next
+            soonest = min(soonest, edge.end)
+            next = edge.next
+            in_order = False
         if crossing == 0:
             continue
         count = 0
         for row in range(y * n, y * n + n):
-            # From one sub-scanline to the next the order hardly changes: insertion sort, by way of Shell's if there
-            # are so many edges that a new one may have far to go.
-            gap = 1
-            while 9 * gap < crossing:
-                gap = 3 * gap + 1
-            while gap > 0:
-                for i in range(gap, crossing):
-                    edge = active[i]
-                    j = i
-                    while j >= gap and edges[active[j - gap]].bound > edges[edge].bound:
-                        active[j] = active[j - gap]
-                        j -= gap
-                    active[j] = edge
-                gap //= 3
-            winding = 0
-            was_inside = False
+            if not in_order:
+                _sort(active, crossing)
+                in_order = True
             start = count
+            winding = 0
+            before = active[0].bound
             for i in range(crossing):
                 edge = active[i]
-                if row < edges[edge].first or row >= edges[edge].end:
-                    continue
-                winding += edges[edge].winding
-                inside = winding != 0 if nonzero else winding & 1
-                if inside != was_inside:
-                    spans[count] = edges[edge].bound
-                    count += 1
-                    was_inside = inside
-                edges[edge].bound += edges[edge].step
-                edges[edge].rest += edges[edge].rest_step
-                if edges[edge].rest >= edges[edge].divisor:
-                    edges[edge].rest -= edges[edge].divisor
-                    edges[edge].bound += 1
+                bound = edge.bound
+                if edge.first <= row < edge.end:
+                    outside = winding == 0
+                    winding += edge.winding
+                    spans[count] = bound
+                    count += not nonzero or outside or winding == 0
+                    edge.fraction += edge.fraction_step
+                    bound += edge.step + (edge.fraction >> 62)
+                    edge.bound = bound
+                    edge.fraction &= whole
+                in_order &= i == 0 or before <= bound
+                before = bound
             if surface.weighing:
                 for i in range(start, count, 2):
                     surface.weigh(y, row - y * n, spans[i], spans[i + 1])
         paint(surface, y, spans, count >> 1, n)
+
+
+@cython.cfunc
+@cython.inline
+@cython.nogil
+@cython.exceptval(check=False)
+def _sort(active: cython.pointer[cython.pointer[Edge]], crossing: cython.int) -> cython.void:
+    """Sort edges by their bounds.
+
+    From one sub-scanline to the next their order hardly changes: insertion sort, by way of Shell's if there are so many
+    that a new one may have far to go.
+    """
+    gap: cython.int = 1
+    i: cython.int
+    j: cython.int
+    bound: cython.longlong
+    edge: cython.pointer[Edge]
+    while 9 * gap < crossing:
+        gap = 3 * gap + 1
+    while gap > 0:
+        for i in range(gap, crossing):
+            edge = active[i]
+            bound = edge.bound
+            j = i
+            while j >= gap and active[j - gap].bound > bound:
+                active[j] = active[j - gap]
+                j -= gap
+            active[j] = edge
+        gap //= 3

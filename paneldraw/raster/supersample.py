@@ -79,6 +79,41 @@ class Supersample:
         return Supersample, (self.n, self.reference)
 
 
+# For n from 1 to 15 and g from 0 to 8 n, one after the other: how many of the first g sub-pixels of eight pixels each
+# pixel has, as the bytes of a number, the first pixel's the lowest. Counts of n sub-scanlines, added up, fit in.
+_COUNTS = cython.declare(cython.ulonglong[975])
+if not cython.compiled:
+    _COUNTS = [0] * 975
+
+
+@cython.cfunc
+@cython.exceptval(check=False)
+def _fill_counts() -> cython.void:
+    n: cython.int
+    g: cython.int
+    at: cython.int = 0
+    counts: cython.ulonglong
+    one: cython.ulonglong = 1
+    for n in range(1, 16):
+        counts = 0
+        for g in range(8 * n + 1):
+            _COUNTS[at] = counts
+            counts += one << (8 * (g // n) & 63)
+            at += 1
+
+
+_fill_counts()
+
+
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def counts_before(n: cython.int) -> cython.p_ulonglong:
+    """The table of the counts before a sub-pixel, for n up to 15: see `_COUNTS`."""
+    at: cython.int = (4 * n + 1) * (min(n, 15) - 1)
+    return cython.address(_COUNTS[at]) if cython.compiled else _COUNTS[at:]
+
+
 @cython.cfunc
 @cython.nogil
 @cython.exceptval(check=False)
@@ -100,18 +135,14 @@ def paint(
     a: cython.Py_ssize_t
     b: cython.Py_ssize_t
     x: cython.Py_ssize_t
-    part: cython.int
+    one: cython.longlong = 1
     low: cython.Py_ssize_t = surface.left * n
     high: cython.Py_ssize_t = surface.right * n
     first: cython.Py_ssize_t = high
     last: cython.Py_ssize_t = low
-    row: cython.p_int = surface.row
-    if surface.n != n:
-        # Division by n as a multiplication, exact for sub-pixel numbers, which are below 2**24.
-        one: cython.longlong = 1
-        surface.n = n
-        surface.n_inverse = (one << 32) // n + 1
+    surface.count_in(n, n * n)
     inverse: cython.longlong = surface.n_inverse
+    cells: cython.p_longlong = surface.cells
     for k in range(count):
         a = max(spans[2 * k], low)
         b = min(spans[2 * k + 1], high)
@@ -119,14 +150,9 @@ def paint(
             continue
         first = min(first, a)
         last = max(last, b)
-        # The counter of a pixel holds by how much its count exceeds its left neighbor's.
         x = (a * inverse) >> 32
-        part = a - x * n
-        row[x] += n - part
-        row[x + 1] += part
+        cells[x] += ((a - x * n) << 32) + one
         x = (b * inverse) >> 32
-        part = b - x * n
-        row[x] -= n - part
-        row[x + 1] -= part
+        cells[x] -= ((b - x * n) << 32) + one
     if first < last:
-        surface.blend(y, (first * inverse) >> 32, ((last + n - 1) * inverse) >> 32, n * n)
+        surface.blend(y, (first * inverse) >> 32, ((last + n - 1) * inverse) >> 32)

@@ -9,9 +9,9 @@ cdef class Surface:
     cdef readonly int max_level
     cdef unsigned char[256] ink
     cdef int level, op
-    cdef int *row
-    cdef int full, n
-    cdef long long inverse, n_inverse
+    cdef long long *cells
+    cdef int n, full
+    cdef long long n_inverse, full_inverse
     cdef bint weighing
     cdef int *kernel
     cdef int *sums
@@ -29,4 +29,6 @@ cdef class Surface:
     cdef void dip(self, int level, int op) noexcept nogil
     cdef void point(self, Py_ssize_t x, Py_ssize_t y) noexcept nogil
     cdef void span(self, Py_ssize_t y, Py_ssize_t x1, Py_ssize_t x2) noexcept nogil
-    cdef void blend(self, Py_ssize_t y, Py_ssize_t x1, Py_ssize_t x2, int full) noexcept nogil
+    cdef void count_in(self, int n, int full) noexcept nogil
+    cdef void blend(self, Py_ssize_t y, Py_ssize_t x1, Py_ssize_t x2) noexcept nogil
+    cdef void blend_eight(self, Py_ssize_t y, Py_ssize_t x, unsigned long long counts) noexcept nogil

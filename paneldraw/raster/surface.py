@@ -53,20 +53,32 @@ class Surface:
         self.bottom = height
         self.level = -1
         self.op = -1
-        self.full = 0
-        self.n_inverse = 0
         self.weighing = False
         self.n = 0
+        self.full = 0
         self.reserve()
 
     @cython.cfunc
     def reserve(self) -> Any:
-        """Make the row in which coverage is counted: one counter a pixel and two beyond the right end, all zero."""
+        """Make the row of cells in which coverage is counted: one a pixel and one beyond the right end, all zero."""
         if cython.compiled:
-            self.scratch = bytearray(4 * (self.width + 2))
-            self.row = cython.cast(cython.p_int, cython.cast(cython.p_char, self.scratch))
+            self.scratch = bytearray(8 * (self.width + 1))
+            self.cells = cython.cast(cython.p_longlong, cython.cast(cython.p_char, self.scratch))
         else:
-            self.row = [0] * (self.width + 2)
+            self.cells = [0] * (self.width + 1)
+
+    @cython.cfunc
+    @cython.nogil
+    @cython.exceptval(check=False)
+    def count_in(self, n: cython.int, full: cython.int) -> cython.void:
+        """From now on count coverage in n sub-pixels a pixel of a row; a count of `full` is the whole pixel."""
+        one: cython.longlong = 1
+        if self.n != n or self.full != full:
+            # Divisions as multiplications: by n, exact below 2**24; by 2 * full, exact below 2**18.
+            self.n = n
+            self.n_inverse = (one << 32) // n + 1
+            self.full = full
+            self.full_inverse = (one << 32) // (2 * full) + 1
 
     @cython.cfunc
     def make_room(self, size: cython.Py_ssize_t) -> Any:
@@ -176,10 +188,11 @@ class Surface:
             self.sums[at + x + rows] = 0
             if visible and left <= x < right:
                 covered = cython.cast(cython.int, (total + 512) >> 10)
-                self.row[x] = covered - before
+                self.cells[x] = covered - before
                 before = covered
         if visible:
-            self.blend(y, left, right, 1024)
+            self.count_in(1, 1024)
+            self.blend(y, left, right)
 
     @cython.cfunc
     @cython.nogil
@@ -238,52 +251,86 @@ class Surface:
     @cython.cfunc
     @cython.nogil
     @cython.exceptval(check=False)
-    def blend(
-        self, y: cython.Py_ssize_t, x1: cython.Py_ssize_t, x2: cython.Py_ssize_t, full: cython.int
-    ) -> cython.void:
-        """Paint pixels ``x1 <= x < x2`` of row `y`, which are in the window, by the coverage counted in `row`.
+    def blend(self, y: cython.Py_ssize_t, x1: cython.Py_ssize_t, x2: cython.Py_ssize_t) -> cython.void:
+        """Paint pixels ``x1 <= x < x2`` of row `y`, which are in the window, by the coverage counted in `cells`.
 
-        `row` holds differences: pixel x is covered ``row[x1] + ... + row[x]`` times of `full`. It is zero afterwards.
+        A span that begins in a pixel behind k of its n sub-pixels has added ``(k << 32) + 1`` to the pixel's cell; one
+        that ends there has taken that away. So the lower half adds up to the number of spans that are open, and the
+        upper half is what they leave out of this pixel. The cells are zero afterwards.
         """
         x: cython.Py_ssize_t
-        covered: cython.longlong = 0
+        open_spans: cython.longlong = 0
+        cell: cython.longlong
+        covered: cython.longlong
         share: cython.longlong
         old: cython.longlong
-        row: cython.p_int = self.row
+        lower: cython.longlong = 0xFFFFFFFF
+        cells: cython.p_longlong = self.cells
+        n: cython.longlong = self.n
+        full: cython.longlong = self.full
+        inverse: cython.longlong = self.full_inverse
         op: cython.int = self.op
         level: cython.longlong = self.level if op != 4 else 0
         top: cython.int = self.max_level
         pixels: cython.p_uchar = self.pixels
         base: cython.Py_ssize_t = y * self.stride
-        if self.full != full:
-            # Division by 2 * full as a multiplication, exact for what is below 2**18.
-            one: cython.longlong = 1
-            self.full = full
-            self.inverse = (one << 32) // (2 * full) + 1
-        inverse: cython.longlong = self.inverse
-        if top == 1:
+        if (op == 0 or op == 4) and top > 1:
             for x in range(x1, x2):
-                covered += row[x]
-                row[x] = 0
-                if 2 * covered >= full:
-                    pixels[base + x] = self.ink[pixels[base + x]]
-        elif op == 0 or op == 4:
-            for x in range(x1, x2):
-                covered += row[x]
-                row[x] = 0
+                cell = open_spans + cells[x]
+                cells[x] = 0
+                open_spans = cell & lower
+                covered = n * open_spans - (cell >> 32)
                 old = pixels[base + x]
-                pixels[base + x] = ((2 * (old * full + (level - old) * covered) + full) * inverse) >> 32
+                pixels[base + x] = ((2 * (level - old) * covered + (2 * old + 1) * full) * inverse) >> 32
         else:
             for x in range(x1, x2):
-                covered += row[x]
-                row[x] = 0
+                cell = open_spans + cells[x]
+                cells[x] = 0
+                open_spans = cell & lower
+                covered = n * open_spans - (cell >> 32)
                 old = pixels[base + x]
                 share = ((2 * level * covered + full) * inverse) >> 32
-                if op == 1:
+                if top == 1:
+                    if 2 * covered >= full:
+                        pixels[base + x] = self.ink[old]
+                elif op == 1:
                     pixels[base + x] = old ^ share
                 elif op == 2:
                     pixels[base + x] = min(old + share, top)
                 else:
                     pixels[base + x] = max(old, share)
-        row[x2] = 0
-        row[x2 + 1] = 0
+        cells[x2] = 0
+
+    @cython.cfunc
+    @cython.nogil
+    @cython.exceptval(check=False)
+    def blend_eight(self, y: cython.Py_ssize_t, x: cython.Py_ssize_t, counts: cython.ulonglong) -> cython.void:
+        """Paint up to eight pixels from (x, y) on by their coverage: the bytes of `counts`, the lowest one first."""
+        covered: cython.longlong
+        old: cython.longlong
+        share: cython.longlong
+        full: cython.longlong = self.full
+        inverse: cython.longlong = self.full_inverse
+        op: cython.int = self.op
+        level: cython.longlong = self.level if op != 4 else 0
+        top: cython.int = self.max_level
+        pixels: cython.p_uchar = self.pixels
+        i: cython.Py_ssize_t = y * self.stride + x
+        while counts:
+            covered = counts & 255
+            counts >>= 8
+            old = pixels[i]
+            if top == 1:
+                if 2 * covered >= full:
+                    pixels[i] = self.ink[old]
+            elif op == 0 or op == 4:
+                pixels[i] = ((2 * (level - old) * covered + (2 * old + 1) * full) * inverse) >> 32
+            else:
+                share = ((2 * level * covered + full) * inverse) >> 32
+                if op == 1:
+                    pixels[i] = old ^ share
+                elif op == 2:
+                    pixels[i] = min(old + share, top)
+                else:
+                    pixels[i] = max(old, share)
+            i += 1

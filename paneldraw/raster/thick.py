@@ -14,13 +14,15 @@ from typing import Any
 import cython
 
 if cython.compiled:
-    from cython.cimports.libc.math import ceil, floor, sqrt
-    from cython.cimports.paneldraw.raster.supersample import paint
+    from cython.cimports.libc.math import sqrt
+    from cython.cimports.paneldraw.raster.floors import floored
+    from cython.cimports.paneldraw.raster.supersample import counts_before, paint
     from cython.cimports.paneldraw.raster.surface import Surface
 else:
-    from math import ceil, floor, sqrt
+    from math import sqrt
 
-    from paneldraw.raster.supersample import paint
+    from paneldraw.raster.floors import floored
+    from paneldraw.raster.supersample import counts_before, paint
     from paneldraw.raster.surface import Surface
 
 
@@ -48,7 +50,7 @@ def _root_of_product(a: cython.ulonglong, b: cython.ulonglong) -> cython.longlon
     The floating-point root is off by one at most; the difference of the squares is small enough to survive
     arithmetic modulo 2**64, in which the squares themselves are lost.
     """
-    t: cython.ulonglong = cython.cast(cython.ulonglong, floor(a * sqrt(b)))
+    t: cython.ulonglong = floored(a * sqrt(b))
     if cython.cast(cython.longlong, a * a * b - t * t) < 0:
         t -= 1
     elif cython.cast(cython.longlong, a * a * b - (t + 1) * (t + 1)) >= 0:
@@ -109,9 +111,9 @@ def slab(
     """The rectangle of `width` around the line; with `square` it reaches half a width beyond the end points.
 
     End points within +-2**18 pixels, width within 2**12. In the line's own frame a point's distance across is
-    v / length and along it u / length, with v = dx Y - dy X and u = dx X + dy Y. Each of the four edges bounds the
-    points of a sub-scanline from the left or from the right. Returns False, with nothing painted, where the bounds
-    are too far away or too fine for exact arithmetic in 64 bits.
+    v / length and along it u / length, with v = dx Y - dy X and u = dx X + dy Y. Each of the two sides and the two ends
+    bounds the points of a sub-scanline from the left or from the right. Returns False, with nothing painted, where the
+    bounds are too far away or too fine for exact arithmetic in 64 bits.
     """
     dx: cython.longlong = x2 - x1
     dy: cython.longlong = y2 - y1
@@ -153,71 +155,137 @@ def slab(
     whole: cython.longlong = 2 * n * squared
 
     # Rows of pixels that the rectangle may touch.
-    sine: cython.double = dy / sqrt(squared)
-    cosine: cython.double = abs(dx) / sqrt(squared)
-    over: cython.double = width * (cosine + sine if square else cosine) / 512.0
-    top: cython.longlong = max(surface.top, cython.cast(cython.longlong, floor(y1 / 256.0 - over + 0.49)))
-    bottom: cython.longlong = min(surface.bottom, cython.cast(cython.longlong, ceil((y1 + dy) / 256.0 + over + 0.51)))
+    length: cython.double = sqrt(squared)
+    over: cython.double = width * (abs(dx) + (dy if square else 0)) / (512.0 * length)
+    top: cython.longlong = max(surface.top, floored(y1 / 256.0 - over + 0.49))
+    bottom: cython.longlong = min(surface.bottom, floored((y1 + dy) / 256.0 + over + 0.51) + 1)
     if top >= bottom:
         return True
 
-    # The bounds of the first sub-scanline: left side, left end, right side, right end.
+    # Where sides and ends bound the first sub-scanline from the left and from the right, and by how much they move.
     middle: cython.longlong = 256 * (n if corner else n - 1)
     down: cython.longlong = 512 * n * top - middle - 2 * n * y1
     offset: cython.longlong = 2 * n * x1 + middle
-    edge: cython.int
-    bound: cython.longlong[4]
-    divisor: cython.longlong[4]
-    step: cython.longlong[4]
-    if not cython.compiled:
-        bound, divisor, step = ([0] * 4 for _ in range(3))
-    divisor[0] = divisor[2] = dy
-    step[0] = step[2] = dx
-    bound[0] = dx * down - inside
-    bound[2] = dx * down + outside
-    if dx > 0:
-        divisor[1] = divisor[3] = dx
-        step[1] = step[3] = -dy
-        bound[1] = -dy * down - end_inside
-        bound[3] = -dy * down + whole + end_outside
-    else:
-        divisor[1] = divisor[3] = -dx
-        step[1] = step[3] = dy
-        bound[1] = dy * down - whole - end_inside
-        bound[3] = dy * down + end_outside
-    # A bound moves by a constant fraction. With 40 bits behind the point, the fractions' errors add up to less than the
-    # slack; and the slack is less than the least distance of a bound from the next whole number, which is 1 / divisor.
+    run: cython.longlong = abs(dx)
+    side_step: cython.double = dx / cython.cast(cython.double, dy)
+    end_step: cython.double = -dy / cython.cast(cython.double, dx)
     lines: cython.longlong = n * (bottom - top)
-    slack: cython.longlong = 2 * lines + 8
-    for edge in range(4):
-        # The first sub-pixel at or right of the bound: a ceiling.
-        rest: cython.longlong = _floor_div(bound[edge] + divisor[edge] * offset - 1, 512) + divisor[edge]
-        whole_part: cython.longlong = _floor_div(rest, divisor[edge])
-        whole_step: cython.longlong = _floor_div(step[edge], divisor[edge])
-        if (
-            (2 * slack * divisor[edge]) >> 40
-            or abs(whole_part) > _LARGEST_BOUND
-            or abs(whole_part + lines * whole_step) > _LARGEST_BOUND
-        ):
-            return False
-        rest -= whole_part * divisor[edge]
-        bound[edge] = (whole_part << 40) + slack + cython.cast(cython.longlong, floor(rest * _UNIT / divisor[edge]))
-        rest = step[edge] - whole_step * divisor[edge]
-        step[edge] = (whole_step << 40) + cython.cast(cython.longlong, floor(rest * _UNIT / divisor[edge]))
+    left: cython.double = _bound(dx * down - inside, dy, offset)
+    right: cython.double = _bound(dx * down + outside, dy, offset)
+    back: cython.double
+    front: cython.double
+    if dx > 0:
+        back = _bound(-dy * down - end_inside, run, offset)
+        front = _bound(-dy * down + whole + end_outside, run, offset)
+    else:
+        back = _bound(dy * down - whole - end_inside, run, offset)
+        front = _bound(dy * down + end_outside, run, offset)
+    # A bound is a fraction. Its distance below the next whole number is a multiple of 1 / divisor: a slack that is more
+    # than all errors of rounding and less than half of that leaves its whole part exact.
+    slack: cython.longlong = lines + 4096
+    if (
+        (2 * slack * max(dy, run)) >> 40
+        or max(abs(left), abs(right), abs(left + lines * side_step), abs(right + lines * side_step)) > _LARGEST_BOUND
+        or max(abs(back), abs(front), abs(back + lines * end_step), abs(front + lines * end_step)) > _LARGEST_BOUND
+    ):
+        return False
+    _sweep(
+        surface,
+        top,
+        bottom,
+        _fixed(left) + slack,
+        _fixed(right) + slack,
+        _fixed(back) + slack,
+        _fixed(front) + slack,
+        _fixed(side_step),
+        _fixed(end_step),
+        n,
+    )
+    return True
 
+
+@cython.cfunc
+@cython.inline
+@cython.nogil
+@cython.exceptval(check=False)
+def _bound(edge: cython.longlong, divisor: cython.longlong, offset: cython.longlong) -> cython.double:
+    """A number whose floor is the first sub-pixel at or right of an edge, up to errors of rounding."""
+    return (((edge + divisor * offset - 1) >> 9) + divisor) / cython.cast(cython.double, divisor)
+
+
+@cython.cfunc
+@cython.inline
+@cython.nogil
+@cython.exceptval(check=False)
+def _fixed(number: cython.double) -> cython.longlong:
+    """A number of sub-pixels with 40 bits behind the point, the rest cut off."""
+    return cython.cast(cython.longlong, number * _UNIT) if cython.compiled else int(number * _UNIT)
+
+
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def _sweep(
+    surface: Surface,
+    top: cython.longlong,
+    bottom: cython.longlong,
+    left: cython.longlong,
+    right: cython.longlong,
+    back: cython.longlong,
+    front: cython.longlong,
+    side_step: cython.longlong,
+    end_step: cython.longlong,
+    n: cython.int,
+) -> cython.void:
+    """Count and paint the rows, given the bounds of their first sub-scanline, those of the sides and of the ends."""
     spans: cython.Py_ssize_t[32]
     if not cython.compiled:
         spans = [0] * 32
+    one: cython.longlong = 1
+    low: cython.longlong = (surface.left * n) * (one << 40)
+    high: cython.longlong = (surface.right * n + 1) * (one << 40)
+    # From the first sub-scanline of a row to the last one.
+    side_turn: cython.longlong = (n - 1) * side_step
+    turn: cython.longlong = side_turn - (n - 1) * end_step
+    before: cython.p_ulonglong = counts_before(n)
+    inverse: cython.longlong = (one << 32) // n + 1
+    surface.count_in(n, n * n)
     y: cython.longlong
     row: cython.int
+    _: cython.int
+    x: cython.longlong
+    first: cython.longlong
+    last: cython.longlong
+    counts: cython.ulonglong
     for y in range(top, bottom):
-        for row in range(n):
-            spans[2 * row] = max(bound[0], bound[1]) >> 40
-            spans[2 * row + 1] = min(bound[2], bound[3]) >> 40
-            for edge in range(4):
-                bound[edge] += step[edge]
-        paint(surface, y, spans, n, n)
-    return True
+        first = left + min(0, side_turn)
+        last = right + max(0, side_turn)
+        x = ((first >> 40) * inverse) >> 32
+        # Most rows are cut by the sides alone, visible, and no wider than the pixels that are counted at once.
+        if (
+            first >= low
+            and last < high
+            and (last >> 40) - x * n <= 8 * n <= 120
+            and left - back >= max(0, -turn)
+            and front - right >= max(0, turn)
+        ):
+            counts = 0
+            for _ in range(n):
+                counts += before[(right >> 40) - x * n] - before[(left >> 40) - x * n]
+                left += side_step
+                right += side_step
+            surface.blend_eight(y, x, counts)
+            back += n * end_step
+            front += n * end_step
+        else:
+            for row in range(n):
+                spans[2 * row] = max(left, back) >> 40
+                spans[2 * row + 1] = min(right, front) >> 40
+                left += side_step
+                right += side_step
+                back += end_step
+                front += end_step
+            paint(surface, y, spans, n, n)
 
 
 @cython.cfunc

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from array import array
 from fractions import Fraction
 
 import numpy as np
@@ -164,3 +165,30 @@ def test_rows_of_unlike_length_are_refused(package):
     fb = package.Framebuffer(WIDTH, HEIGHT)
     with pytest.raises(ValueError, match="segments"):
         fb.lines([[1, 2, 3, 4], [1, 2, 3]])
+
+
+@given(tables(2), st.sampled_from(["poly", "polyline"]), antialias)
+@example(np.array([[1, 2], [9, 9], [3, 14]])[::-1, ::-1], "poly", None)
+@example(np.asfortranarray([[1.5, 2], [9, 9.25], [3, 14]]), "polyline", (2, "center"))
+@example(np.array([[2**30, 2], [9, 9], [-(2**40), 14]]), "poly", None)
+def test_a_path_is_the_same_in_an_array_and_in_a_list(package, rows, call, samples):
+    style = {"antialias": samples and package.Supersample(*samples)}
+    pictures = []
+    # As an array, as a list, and with x and y in turn, in an array and in a list.
+    for points in (rows, rows.tolist(), rows.reshape(-1), rows.reshape(-1).tolist()):
+        fb = package.Framebuffer(WIDTH, HEIGHT, 4)
+        if call == "poly":
+            fb.poly(0, 0, points, fill=True, **style)
+        else:
+            fb.polyline(points, **style)
+        pictures.append(fb.pixels.tobytes())
+    assert len(set(pictures)) == 1
+
+
+def test_points_come_from_any_buffer(package):
+    drawn = package.Framebuffer(WIDTH, HEIGHT)
+    drawn.poly(0, 0, array("h", [1, 2, 20, 5, 7, 15]), fill=True)
+    expected = package.Framebuffer(WIDTH, HEIGHT)
+    expected.poly(0, 0, [(1, 2), (20, 5), (7, 15)], fill=True)
+    assert drawn.pixels.any()
+    assert (drawn.pixels == expected.pixels).all()
