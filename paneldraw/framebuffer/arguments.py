@@ -17,10 +17,10 @@ from numpy.typing import NDArray
 from paneldraw.raster.cone import SAMPLES
 
 if cython.compiled:
-    from cython.cimports.paneldraw.raster.floors import floored
+    from cython.cimports.paneldraw.raster._floors import floored
 else:  # classes cimported in the .pxd, which leaves a user's type checker these
+    from paneldraw.raster._floors import floored
     from paneldraw.raster.cone import ConeFilter
-    from paneldraw.raster.floors import floored
     from paneldraw.raster.supersample import Supersample
 
 if TYPE_CHECKING:

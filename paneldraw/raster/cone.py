@@ -17,12 +17,12 @@ import numpy as np
 
 if cython.compiled:
     from cython.cimports.libc.math import ceil, hypot
-    from cython.cimports.paneldraw.raster.floors import floored
+    from cython.cimports.paneldraw.raster._floors import floored
     from cython.cimports.paneldraw.raster.surface import Surface
 else:
     from math import ceil, hypot
 
-    from paneldraw.raster.floors import floored
+    from paneldraw.raster._floors import floored
     from paneldraw.raster.surface import Surface
 
 #: Sub-pixels along each side of a pixel, for shapes that are not lines.

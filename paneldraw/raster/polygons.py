@@ -12,11 +12,11 @@ from typing import Any
 import cython
 
 if cython.compiled:
-    from cython.cimports.paneldraw.raster.floors import floored
+    from cython.cimports.paneldraw.raster._floors import floored
     from cython.cimports.paneldraw.raster.supersample import paint
     from cython.cimports.paneldraw.raster.surface import Surface
 else:
-    from paneldraw.raster.floors import floored
+    from paneldraw.raster._floors import floored
     from paneldraw.raster.supersample import paint
     from paneldraw.raster.surface import Surface
 

@@ -15,13 +15,13 @@ import cython
 
 if cython.compiled:
     from cython.cimports.libc.math import sqrt
-    from cython.cimports.paneldraw.raster.floors import floored
+    from cython.cimports.paneldraw.raster._floors import floored
     from cython.cimports.paneldraw.raster.supersample import counts_before, paint
     from cython.cimports.paneldraw.raster.surface import Surface
 else:
     from math import sqrt
 
-    from paneldraw.raster.floors import floored
+    from paneldraw.raster._floors import floored
     from paneldraw.raster.supersample import counts_before, paint
     from paneldraw.raster.surface import Surface
 
