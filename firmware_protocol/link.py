@@ -20,7 +20,7 @@ from firmware_protocol.errors import (
     PanelFaultError,
     VersionError,
 )
-from firmware_protocol.frames import DELIMITER, FRAME_OVERHEAD, encode_frame, wire_size
+from firmware_protocol.frames import DELIMITER, encode_frame, wire_size
 from firmware_protocol.line import PORT_ERRORS, Line, LinkStats
 from firmware_protocol.messages import (
     BASE_BAUDRATE,
@@ -149,11 +149,6 @@ class HostLink:
     def baudrate(self) -> int:
         """The rate in use, bits a second."""
         return self._line.baudrate
-
-    @property
-    def message_overhead(self) -> int:
-        """Bytes a WRITE costs on the wire beyond its runs; each run costs one more byte in 32 or 128."""
-        return FRAME_OVERHEAD
 
     def connect(self) -> None:
         """Begin a new session, opening the port again if it was lost. `submit` does it where it must."""

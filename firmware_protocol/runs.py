@@ -19,8 +19,10 @@ REPEAT_HEADER = 0xC0
 #: With a lower payload limit frames would be envelopes for the most part.
 LEAST_PAYLOAD = 32
 
-# A repeat inside a literal costs its two bytes and the header of the literal after it.
+# A repeat inside a literal costs its two bytes and the header of the literal after it: three equal bytes are never
+# cheaper in a literal. Two are, unless there is nothing but pairs and the literal falls away.
 _REPEATS = re.compile(rb"(.)\1{2,%d}" % (MAX_REPEAT - 1), re.DOTALL)
+_PAIRS = re.compile(rb"(?:(.)\1)+", re.DOTALL)
 
 #: Whether the bytes are data (True) or commands (False), and the bytes.
 Run = tuple[bool, bytes | memoryview]
@@ -141,16 +143,28 @@ class _Packer:
             self.payload += part
 
     def data(self, content: bytes | memoryview, repeats: bool) -> None:
+        if not repeats or len(content) < 2:
+            self._literal(content)
+            return
         at = 0
-        if repeats and len(content) > 2:
-            for match in _REPEATS.finditer(content):
-                self._literal(content[at : match.start()])
-                at = match.end()
-                if len(self.payload) + 2 > self.limit:
-                    self.finish()
-                self.open = None
-                self.payload += bytes((257 - (at - match.start()), content[at - 1]))
-        self._literal(content[at:])
+        for match in _REPEATS.finditer(content):
+            self._between(content[at : match.start()])
+            at = match.end()
+            self._repeat(at - match.start(), content[at - 1])
+        self._between(content[at:])
+
+    def _between(self, content: bytes | memoryview) -> None:
+        if _PAIRS.fullmatch(content):
+            for value in content[::2]:
+                self._repeat(2, value)
+        else:
+            self._literal(content)
+
+    def _repeat(self, times: int, value: int) -> None:
+        if len(self.payload) + 2 > self.limit:
+            self.finish()
+        self.open = None
+        self.payload += bytes((257 - times, value))
 
     def _literal(self, content: bytes | memoryview) -> None:
         at = self._trailing(content)

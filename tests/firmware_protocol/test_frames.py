@@ -124,6 +124,23 @@ def test_packing_never_costs_more_than_literals(content: bytes, doubled: bool) -
     assert sum(map(len, pack_runs([(True, content)], 250))) <= plain
 
 
+def fewest(content: bytes) -> int:
+    """Return the bytes of the shortest string of literals and repeats that stands for the content."""
+    least = [0]
+    for start in range(len(content) - 1, -1, -1):
+        rest = content[start:]
+        literals = [1 + size + least[size - 1] for size in range(1, len(rest) + 1)]
+        equal = next((at for at, value in enumerate(rest) if value != rest[0]), len(rest))
+        least.insert(0, min([*literals, *(2 + least[size - 1] for size in range(2, min(equal, 65) + 1))]))
+    return least[0]
+
+
+@given(st.lists(st.tuples(st.integers(0, 3), st.sampled_from((1, 1, 2, 2, 3, 4, 64, 65, 66, 67)))))
+def test_packing_is_the_shortest_there_is(stretches: list[tuple[int, int]]) -> None:
+    content = b"".join(bytes((value,)) * times for value, times in stretches)[:128]
+    assert sum(map(len, pack_runs([(True, content)], 250))) == fewest(content)
+
+
 @given(st.binary(max_size=250))
 def test_any_write_payload_unpacks_or_is_a_value_error(payload: bytes) -> None:
     try:
