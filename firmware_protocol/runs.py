@@ -28,7 +28,7 @@ _PAIRS = re.compile(rb"(?:(.)\1)+", re.DOTALL)
 Run = tuple[bool, bytes | memoryview]
 
 
-def pack_runs(runs: Iterable[Run], limit: int, *, first: int | None = None, repeats: bool = True) -> list[bytes]:
+def pack_runs(runs: Iterable[Run], limit: int, *, repeats: bool = True) -> list[bytes]:
     """Turn runs into WRITE payloads, as few as there can be.
 
     Parameters
@@ -38,8 +38,6 @@ def pack_runs(runs: Iterable[Run], limit: int, *, first: int | None = None, repe
         payload where they fit into one.
     limit : int
         Most bytes a payload may have, at least 32.
-    first : int, optional
-        Most bytes the first payload may have, at least 32. Default: ``limit``.
     repeats : bool, default True
         Whether the device understands repeats.
 
@@ -55,9 +53,9 @@ def pack_runs(runs: Iterable[Run], limit: int, *, first: int | None = None, repe
     >>> [p.hex(" ") for p in pack_runs([(False, b"\\xb0\\x02\\x10"), (True, b"\\x01\\x02")], 64)]
     ['92 b0 02 10 01 02']
     """
-    if min(limit, first or limit) < LEAST_PAYLOAD:
-        raise ValueError(f"limit and first must be at least {LEAST_PAYLOAD} bytes, not {limit} and {first}")
-    packer = _Packer(limit, first or limit)
+    if limit < LEAST_PAYLOAD:
+        raise ValueError(f"limit must be at least {LEAST_PAYLOAD} bytes, not {limit}")
+    packer = _Packer(limit)
     for is_data, content in runs:
         if is_data:
             packer.data(content, repeats)
@@ -88,6 +86,30 @@ def unpack_runs(payload: bytes) -> list[tuple[bool, bytes]]:
     return [(is_data, bytes(content)) for is_data, content in joined]
 
 
+def cut_runs(runs: Iterable[Run], size: int) -> tuple[list[Run], list[Run]]:
+    """Cut runs in two after so many bytes. Commands stay whole, and with the data after them.
+
+    Examples
+    --------
+    >>> cut_runs([(False, b"\\xb0"), (True, b"abcdef"), (False, b"\\xb1\\x10"), (True, b"gh")], 5)
+    ([(False, b'\\xb0'), (True, b'abcd')], [(True, b'ef'), (False, b'\\xb1\\x10'), (True, b'gh')])
+    """
+    before: list[Run] = []
+    after: list[Run] = []
+    for is_data, content in runs:
+        if size <= 0:
+            after.append((is_data, content))
+        elif is_data and size < len(content):
+            before.append((True, content[:size]))
+            after.append((True, content[size:]))
+        else:
+            before.append((is_data, content))
+        size -= len(content)
+    while before and not before[-1][0]:
+        after.insert(0, before.pop())
+    return before, after
+
+
 def _tokens(payload: bytes) -> Iterator[tuple[bool, bytes]]:
     at = 0
     while at < len(payload):
@@ -114,9 +136,8 @@ def _sizes(header: int) -> tuple[int, int]:
 class _Packer:
     """Fills payloads token by token."""
 
-    def __init__(self, limit: int, first: int) -> None:
-        self.later = limit
-        self.limit = first
+    def __init__(self, limit: int) -> None:
+        self.limit = limit
         self.payload = bytearray()
         self.done: list[bytes] = []
         # Where the token of commands stands that the payload ends with.
@@ -126,13 +147,12 @@ class _Packer:
         if self.payload:
             self.done.append(bytes(self.payload))
             self.payload.clear()
-            self.limit = self.later
             self.open = None
         return self.done
 
     def commands(self, content: bytes | memoryview) -> None:
         size = len(content) + -(-len(content) // MAX_COMMANDS)
-        if size > self.limit - len(self.payload) and size <= self.later:
+        if size > self.limit - len(self.payload) and size <= self.limit:
             self.finish()
         for at in range(0, len(content), MAX_COMMANDS):
             part = content[at : at + MAX_COMMANDS]

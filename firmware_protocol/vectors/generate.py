@@ -92,8 +92,9 @@ def conversations() -> dict[str, list[Step]]:
         ],
         "malformed writes": [
             hello, encode(Write(0, b"\x05\x01")), encode(Reset(1)), encode(Write(2, b"\x00\x11\xc0")), encode(Reset(3)),
-            encode(Write(4, b"\x91\xae\xaf\x11")), encode(Reset(5)), encode_frame(0x13, 6), encode_frame(0x12, 7, b"\1\2\3"),
-            encode(Reset(8)), encode_frame(0x1F, 9, b"?"), picture(10, *pixel), encode(Reset(11)), picture(12, *pixel),
+            encode(Write(4, b"\x91\xae\xaf\x11")), encode(Reset(5)), encode_frame(0x13, 6),
+            encode_frame(0x12, 7, b"\1\2\3"), encode(Reset(8)), encode_frame(0x1F, 9, b"?"), picture(10, *pixel),
+            encode(Reset(11)), picture(12, *pixel),
         ],
         "a rate that is not offered": [
             hello, encode(Baud(0, 9600)), encode(Reset(1, pulse=True)), encode(Baud(2, 250_000)),

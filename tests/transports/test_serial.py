@@ -12,9 +12,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 from far_ends import Board, Server, pty, serial, tty
+from hypothesis import given, settings
+from hypothesis import strategies as st
 from simulated import Noise, SimulatedPort
 
 from firmware_protocol.device import UNO
+from firmware_protocol.messages import Ack, encode
 from paneldraw import Panel, open_panel, simulator
 from paneldraw.controllers import SSD1306
 from paneldraw.errors import (
@@ -99,21 +102,42 @@ def test_a_picture_that_is_there_already_sends_nothing(path, board):
         assert board.taken == taken
 
 
-def test_a_pixel_is_thirteen_bytes_at_most(path, board, chip):
+def part(draw):
+    """A rectangle of the panel and what fills it: noise of some density, or one level."""
+    left, top = draw(st.integers(0, 127)), draw(st.integers(0, 63))
+    right, bottom = draw(st.integers(left + 1, 128)), draw(st.integers(top + 1, 64))
+    return slice(top, bottom), slice(left, right), draw(st.sampled_from((0.0, 0.01, 0.5, 1.0)))
+
+
+WHOLE = (slice(None), slice(None), 0.5)
+SETTINGS = ("invert", "sleep", "wake", "contrast")
+BEFORE = st.one_of(st.just(WHOLE), st.composite(part)(), st.sampled_from(SETTINGS))
+
+
+@settings(max_examples=150, deadline=None)
+@given(st.lists(st.tuples(BEFORE, st.integers(0, 127), st.integers(0, 63)), max_size=6), st.integers(0, 99))
+def test_a_pixel_is_thirteen_bytes_at_most_after_anything(steps, seed):
+    port, chip, pick = SimulatedPort(), simulator.SSD1306(128, 64), np.random.default_rng(seed)
+    port.panel = chip.write
     picture = NOISE.copy()
-    pick = np.random.default_rng(4)
-    with opened(path) as panel:
+    with Panel(SSD1306(128, 64), SerialTransport(port, clock=port.clock)) as panel:
         panel.show(picture)
-        sizes = []
-        for _ in range(200):
-            picture[pick.integers(64), pick.integers(128)] ^= 1
-            taken = board.taken
-            sizes.append(panel.show(picture).wire_bytes)
-            assert board.taken - taken == sizes[-1]
-        # The first one in another place also leaves the mode in which whole pictures are sent.
-        assert sorted(sizes)[-2] <= 13
-        assert max(sizes) <= 14
+        for before, x, y in [(WHOLE, 127, 63), *steps]:
+            if before in SETTINGS:
+                getattr(panel, before)(*[7] * (before == "contrast"))
+            else:
+                rows, columns, density = before
+                picture[rows, columns] = pick.random(picture[rows, columns].shape) < density
+                panel.show(picture)
+            picture[y, x] ^= 1
+            carried = port.carried
+            sent = panel.show(picture).wire_bytes
+            assert sent <= 13
+            assert port.carried - carried == sent + len(encode(Ack(0)))
+        panel.wake()
+        panel.invert(False)
         np.testing.assert_array_equal(chip.pixels, picture)
+    assert chip.violations == []
 
 
 def test_what_repeats_is_packed(path, board, chip):
