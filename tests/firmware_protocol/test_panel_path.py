@@ -12,6 +12,7 @@ from simulated import SimulatedPort
 
 from paneldraw import Panel, simulator
 from paneldraw.controllers import SSD1306
+from paneldraw.demos.scenes import SCENES
 from paneldraw.errors import PanelDisconnectedError
 from paneldraw.transports import SerialTransport
 
@@ -90,6 +91,28 @@ def test_a_pixel_and_nothing_by_the_emulated_chip(board: Board) -> None:
                 port.read()
                 np.testing.assert_array_equal(chip.pixels, picture)
     assert chip.violations == []
+
+
+def test_scenes_by_the_emulated_chip_in_frames_a_second(binaries: tuple[Path, Path]) -> None:
+    seconds = 0.0
+    for scene in SCENES.values():
+        board = Board(*binaries)
+        board.run(HZ // 50)
+        port = BoardPort(board)
+        chip = simulator.SSD1306(128, 64, history=1)
+        port.panel = chip.write
+        with Panel(SSD1306(128, 64), SerialTransport(port, 115_200, clock=port.clock)) as panel:
+            fb = panel.framebuffer()
+            for number in range(31):
+                scene(fb, number)
+                start = port.clock()
+                panel.show(fb)
+                seconds += (port.clock() - start) * (number > 0)
+                port.read()
+                np.testing.assert_array_equal(chip.pixels, fb.pixels)
+        assert chip.violations == []
+        board.close()
+    assert 30 * len(SCENES) / seconds > 60
 
 
 @pytest.mark.parametrize("fault", ["reset", "power", "watchdog"])
