@@ -2,32 +2,23 @@
 
 from __future__ import annotations
 
-import os
 import random
 import re
-import select
 import shutil
 import subprocess
-import threading
-import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
 from c_core import FIRMWARE
 from emulated import HZ, Board, BoardPort, built
-from simulated import Noise, PagePanel, whole
+from simulated import Noise, whole
 
-from firmware_protocol import DeviceResetError, Fault, HostLink, LinkLostError, PanelFaultError, VersionError
+from firmware_protocol import DeviceResetError, Fault, HostLink, PanelFaultError, VersionError
 from firmware_protocol.frames import FrameDecoder
 from firmware_protocol.messages import Ack, Hello, HelloReply, Nak, Poll, Status, decode, encode
 
 HELLO = b"\0" + encode(Hello(0x01020304))
-
-
-@pytest.fixture(scope="module")
-def binaries(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
-    return built(tmp_path_factory.mktemp("avr"))
 
 
 @pytest.fixture
@@ -258,64 +249,6 @@ def test_a_host_that_leaves_at_a_fast_rate_finds_the_board_again(board: Board) -
     link.write(whole(picture))
     port.read()
     assert port.panel.ram == picture
-
-
-class PtyBoard:
-    """The board behind a pseudo-terminal at ``path``, at the speed of its wire and of the clock on the wall."""
-
-    def __init__(self, board: Board, path: Path) -> None:
-        self.board = board
-        self.path = path
-        self.panel = PagePanel()
-        self.plug_in()
-
-    def plug_in(self) -> None:
-        import tty
-
-        self.far, self.near = os.openpty()
-        tty.setraw(self.near)
-        self.path.symlink_to(os.ttyname(self.near))
-        self.stop = threading.Event()
-        self.thread = threading.Thread(target=self.run, daemon=True)
-        self.thread.start()
-
-    def run(self) -> None:
-        start, first = time.monotonic(), self.board.cycle
-        rate = 115200
-        while not self.stop.is_set():
-            if select.select([self.far], [], [], 0.001)[0]:
-                self.board.feed(os.read(self.far, 4096), rate)
-            self.board.run(first + round((time.monotonic() - start) * HZ))
-            if data := self.board.output(rate):
-                os.write(self.far, data)
-            for content in self.board.transactions():
-                self.panel(content)
-
-    def pull_out(self) -> None:
-        self.stop.set()
-        self.thread.join()
-        self.path.unlink()
-        os.close(self.far)
-        os.close(self.near)
-
-
-def test_real_pyserial_over_a_real_pty_to_the_firmware(board: Board, tmp_path: Path) -> None:
-    serial = pytest.importorskip("serial", reason="pyserial is not installed")
-    pytest.importorskip("termios", reason="no pseudo-terminals here")
-    behind = PtyBoard(board, tmp_path / "ttyBOARD")
-    first, second = screens(2)
-    with HostLink(serial.Serial(str(behind.path), 115200), baudrate=115200) as link:
-        link.write(whole(first))
-        behind.pull_out()
-        assert behind.panel.ram == first
-        with pytest.raises(LinkLostError, match="ttyBOARD"):
-            link.write(whole(second))
-        board.reset(power=True)
-        behind.plug_in()
-        link.write(whole(second))
-        assert link.stats.sessions == 2
-    behind.pull_out()
-    assert behind.panel.ram == second
 
 
 @pytest.mark.parametrize(("oldest", "newest", "advice"), [(2, 3, "update paneldraw"), (1, 9, "")])

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from emulated import HZ, Board, BoardPort, built
+from emulated import HZ, Board, BoardPort
 from simulated import SimulatedPort
 
 from paneldraw import Panel, simulator
@@ -15,11 +15,6 @@ from paneldraw.controllers import SSD1306
 from paneldraw.demos.scenes import SCENES
 from paneldraw.errors import PanelDisconnectedError
 from paneldraw.transports import SerialTransport
-
-
-@pytest.fixture(scope="module")
-def binaries(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
-    return built(tmp_path_factory.mktemp("avr"))
 
 
 @pytest.fixture

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from far_ends import Board, Server, pty, serial, tty
+from far_ends import Board, EmulatedBoard, Server, pty, serial, tty
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from simulated import Noise, SimulatedPort
@@ -46,9 +46,13 @@ def chip():
     return simulator.SSD1306(128, 64)
 
 
-@pytest.fixture
-def board(path, chip):
-    board = Board(path, panel=chip.write)
+@pytest.fixture(params=["reference", "emulated"])
+def board(request, path, chip):
+    """A board with a panel behind a port: the reference device, or the firmware on the emulated chip."""
+    if request.param == "reference":
+        board = Board(path, panel=chip.write)
+    else:
+        board = EmulatedBoard(request.getfixturevalue("binaries"), path, chip.write)
     yield board
     board.pull_out()
 
@@ -212,8 +216,7 @@ def test_a_url_that_fails_leaves_the_port_free(path):
 # Faults on the way
 
 
-def test_unplugged_and_plugged_in_again(path, chip):
-    board = Board(path, panel=chip.write)
+def test_unplugged_and_plugged_in_again(path, board, chip):
     with opened(path) as panel:
         panel.show(NOISE)
         board.pull_out()
@@ -225,11 +228,9 @@ def test_unplugged_and_plugged_in_again(path, chip):
         panel.show(INVERSE)
         np.testing.assert_array_equal(chip.pixels, INVERSE)
     assert chip.violations == []
-    board.pull_out()
 
 
-def test_plugged_in_again_where_another_program_took_the_port(path, chip):
-    board = Board(path, panel=chip.write)
+def test_plugged_in_again_where_another_program_took_the_port(path, board, chip):
     with opened(path) as panel:
         board.pull_out()
         with pytest.raises(PanelDisconnectedError):
@@ -239,7 +240,6 @@ def test_plugged_in_again_where_another_program_took_the_port(path, chip):
             panel.show(NOISE)
         panel.show(NOISE)
         np.testing.assert_array_equal(chip.pixels, NOISE)
-    board.pull_out()
 
 
 @pytest.mark.parametrize("after", [1, 3, 6])
@@ -266,35 +266,28 @@ def test_a_restart_in_the_middle_of_a_picture(path, chip, after):
     board.pull_out()
 
 
-def test_a_panel_that_is_missing_or_vanishes(path, chip):
-    def nobody(content):
-        raise OSError(errno.EREMOTEIO, "Remote I/O error")
-
-    board = Board(path, panel=nobody)
+def test_a_panel_that_is_missing_or_vanishes(path, board, chip):
+    board.trouble = "absent"
     with pytest.raises(PanelNotFoundError, match="no panel answers at 0x3c"):
         opened(path)
-    board.panel = chip.write
+    board.trouble = ""
     with opened(path) as panel:
         panel.show(NOISE)
-        board.panel = nobody
+        board.trouble = "absent"
         with pytest.raises(PanelDisconnectedError, match="no panel answers at 0x3c"):
             panel.show(INVERSE)
         chip.power_cycle()
-        board.panel = chip.write
+        board.trouble = ""
         panel.show(INVERSE)
         np.testing.assert_array_equal(chip.pixels, INVERSE)
-    board.pull_out()
 
 
 def test_a_stuck_bus(path, board, chip):
-    def stuck(content):
-        raise OSError(errno.ETIMEDOUT, "Connection timed out")
-
     with opened(path) as panel:
-        board.panel = stuck
+        board.trouble = "stuck"
         with pytest.raises(PanelTimeoutError, match="pull-up"):
             panel.show(NOISE)
-        board.panel = chip.write
+        board.trouble = ""
         panel.show(NOISE)
         np.testing.assert_array_equal(chip.pixels, NOISE)
 
