@@ -14,9 +14,9 @@ from c_core import FIRMWARE
 from emulated import HZ, Board, BoardPort, built
 from simulated import Noise, whole
 
-from firmware_protocol import DeviceResetError, Fault, HostLink, PanelFaultError, VersionError
+from firmware_protocol import DeviceResetError, Fault, HostLink, NoDeviceError, PanelFaultError, VersionError
 from firmware_protocol.frames import FrameDecoder
-from firmware_protocol.messages import Ack, Hello, HelloReply, Nak, Poll, Status, decode, encode
+from firmware_protocol.messages import Ack, Hello, HelloReply, Message, Nak, Poll, Status, decode, encode
 
 HELLO = b"\0" + encode(Hello(0x01020304))
 
@@ -252,7 +252,7 @@ def test_a_host_that_leaves_at_a_fast_rate_finds_the_board_again(board: Board) -
 
 
 @pytest.mark.parametrize(("oldest", "newest", "advice"), [(2, 3, "update paneldraw"), (1, 9, "")])
-def test_firmware_of_other_versions(tmp_path: Path, oldest: int, newest: int, advice: str) -> None:
+def test_firmware_that_is_newer(tmp_path: Path, oldest: int, newest: int, advice: str) -> None:
     board = Board(*built(tmp_path, f"-DPD_OLDEST_VERSION={oldest} -DPD_NEWEST_VERSION={newest}"))
     board.run(HZ // 50)
     if advice:
@@ -261,6 +261,35 @@ def test_firmware_of_other_versions(tmp_path: Path, oldest: int, newest: int, ad
     else:
         assert joined(board)[1].device.version == 1
     board.close()
+
+
+def test_firmware_that_is_older(board: Board, monkeypatch: pytest.MonkeyPatch) -> None:
+    def newer(message: Message) -> bytes:
+        return encode(Hello(message.nonce, 2, 3) if isinstance(message, Hello) else message)
+
+    monkeypatch.setattr("firmware_protocol.link.encode", newer)
+    monkeypatch.setattr("firmware_protocol.link.OLDEST_VERSION", 2)
+    monkeypatch.setattr("firmware_protocol.link.NEWEST_VERSION", 3)
+    with pytest.raises(VersionError, match=r"speaks protocol versions 1 to 1, .* 2 to 3: update the board's firmware"):
+        joined(board)
+    monkeypatch.undo()
+    assert joined(board)[1].device.version == 1
+
+
+@pytest.mark.parametrize("factor", [0.5, 0.9, 2.0])
+def test_a_line_at_another_rate_than_the_host_believes(board: Board, factor: float) -> None:
+    """The host's adapter has the wrong clock, or the board the wrong crystal."""
+    feed, output = board.feed, board.output
+    board.feed = lambda data, baudrate: feed(data, round(baudrate * factor))  # type: ignore[method-assign]
+    board.output = lambda baudrate: output(round(baudrate * factor))  # type: ignore[method-assign]
+    with pytest.raises(NoDeviceError, match="at 115200 baud: check the port"):
+        joined(board)
+    board.feed, board.output = feed, output  # type: ignore[method-assign]
+    port, link = joined(board)
+    picture = screens(1)[0]
+    link.write(whole(picture))
+    port.read()
+    assert port.panel.ram == picture
 
 
 def test_the_readme_names_the_files_that_are_made() -> None:
