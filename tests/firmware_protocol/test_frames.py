@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from binascii import crc_hqx
 from importlib import resources
 from itertools import groupby
 from pathlib import Path
@@ -191,6 +192,20 @@ def test_the_examples_of_the_contract_are_frames() -> None:
         assert Kind(frame.kind).name == name
         assert (frame.kind < 0x80) == (side == "host")
         assert encode(decode(frame)) == bytes.fromhex(wire).lstrip(b"\0")
+
+
+def test_the_worked_frame_of_the_contract() -> None:
+    text = (HERE / "PROTOCOL.md").read_text()
+    assert f"`123456789` is {crc_hqx(b'123456789', 0xFFFF):04X}" in text
+    assert f"84 00 00 have the checksum {crc_hqx(bytes.fromhex('840000'), 0xFFFF):04X}" in text
+    assert "`02 84`, `01`, `03 2B 06`, and the delimiter `00`" in text
+    assert encode(Ack(0)) == bytes.fromhex("02 84 01 03 2B 06 00")
+
+
+def test_the_token_example_of_the_contract() -> None:
+    text = (HERE / "PROTOCOL.md").read_text()
+    assert "`92 B0 08 10 01 02` is three command bytes, B0 08 10, and two data bytes, 01 02" in text
+    assert unpack_runs(bytes.fromhex("92 B0 08 10 01 02")) == [(False, b"\xb0\x08\x10"), (True, b"\1\2")]
 
 
 def test_the_contract_lists_every_message_and_fault() -> None:
