@@ -7,6 +7,7 @@
 #define DOUBT_MS 1500
 #define BUS_PATIENCE_MS 25
 #define ENVELOPE 4
+#define BURST 32 /* bytes that are decoded at a time */
 
 enum kind {
     HELLO = 0x01,
@@ -389,11 +390,44 @@ static void end_frame(uint16_t now)
     begin_frame();
 }
 
+/* Keeps bytes of the block that is open, at most so many; returns how many. It is here that most of the time goes. */
+static uint8_t keep_block(uint16_t head, uint8_t most)
+{
+    uint16_t read = in.read, write = in.write, crc = in.crc;
+    uint16_t room = PD_MAX_PAYLOAD + ENVELOPE - in.length;
+    uint8_t kept = 0;
+    if (most > in.left)
+        most = in.left;
+    if (most > room)
+        most = (uint8_t)room;
+    while (kept != most && read != head) {
+        uint8_t byte = pd_rx.ring[read];
+        if (!byte)
+            break;
+        crc = pd_crc(crc, byte);
+        pd_rx.ring[write] = byte;
+        read = (read + 1) & PD_RING_MASK;
+        write = (write + 1) & PD_RING_MASK;
+        kept++;
+    }
+    in.read = read;
+    in.write = write;
+    in.crc = crc;
+    in.left -= kept;
+    in.length += kept;
+    return kept;
+}
+
 static void decode(uint16_t now)
 {
     uint16_t head;
     PD_GUARDED(head = pd_rx.head);
-    for (uint8_t burst = 32; burst && in.read != head; burst--) {
+    for (uint8_t burst = BURST; burst && in.read != head; burst--) {
+        if (!in.damaged) {
+            burst -= keep_block(head, burst - 1);
+            if (in.read == head)
+                return;
+        }
         uint8_t byte = pd_rx.ring[in.read];
         in.read = (in.read + 1) & PD_RING_MASK;
         if (!byte) {
