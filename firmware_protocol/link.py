@@ -276,11 +276,11 @@ class HostLink:
             return (
                 f"something talks on {self._line.name} ({received} bytes in {self.timeout:g} s), and it is not "
                 f"paneldraw's firmware at {BASE_BAUDRATE} baud: check the port, or flash the firmware "
-                "(see firmware_protocol/firmware/README.md)"
+                "(firmware_protocol/firmware/README.md in its sources)"
             )
         return (
             f"nothing answers on {self._line.name} at {BASE_BAUDRATE} baud: check the port and the cable, and that the "
-            "board runs paneldraw's firmware (see firmware_protocol/firmware/README.md)"
+            "board runs paneldraw's firmware (firmware_protocol/firmware/README.md in its sources)"
         )
 
     def _accept(self, reply: HelloReply) -> None:
