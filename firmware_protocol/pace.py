@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 from firmware_protocol.frames import FRAME_OVERHEAD, wire_size
 from firmware_protocol.messages import HelloReply, Kind
-from firmware_protocol.runs import LEAST_PAYLOAD, Run, cut_runs, pack_runs, unpack_runs
+from firmware_protocol.runs import LEAST_PAYLOAD, Run, bus_bytes, cut_runs, pack_runs, unpack_runs
 
 #: Payload that a bad line shrinks frames to: at 3 errors in 1000 bytes five of six still arrive.
 BAD_LINE_PAYLOAD = 48
@@ -84,7 +84,7 @@ class Pace:
         if len(payload) <= WHOLE:
             return [payload]
         runs = unpack_runs(payload)
-        written = sum(len(content) for _, content in runs)
+        written = bus_bytes(runs)
         on_bus = written * BUS_BYTE
         on_wire, envelope = len(payload) * self._wire_byte, FRAME_OVERHEAD * self._wire_byte
         share = (on_wire + envelope) / (on_wire + on_bus)

@@ -16,6 +16,8 @@ MAX_TRAILING = 7
 MAX_REPEAT = 65
 COMMAND_HEADER = 0x80
 REPEAT_HEADER = 0xC0
+#: Bytes that the panel's bus carries for a run besides its own: the address and the control byte.
+RUN_ENVELOPE = 2
 #: With a lower payload limit frames would be envelopes for the most part.
 LEAST_PAYLOAD = 32
 
@@ -86,17 +88,23 @@ def unpack_runs(payload: bytes) -> list[tuple[bool, bytes]]:
     return [(is_data, bytes(content)) for is_data, content in joined]
 
 
+def bus_bytes(runs: Iterable[Run]) -> int:
+    """Return how many bytes the panel's bus carries for runs."""
+    return sum(RUN_ENVELOPE + len(content) for _, content in runs)
+
+
 def cut_runs(runs: Iterable[Run], size: int) -> tuple[list[Run], list[Run]]:
-    """Cut runs in two after so many bytes. Commands stay whole, and with the data after them.
+    """Cut runs in two after so many bytes on the panel's bus. Commands stay whole, and with the data after them.
 
     Examples
     --------
-    >>> cut_runs([(False, b"\\xb0"), (True, b"abcdef"), (False, b"\\xb1\\x10"), (True, b"gh")], 5)
+    >>> cut_runs([(False, b"\\xb0"), (True, b"abcdef"), (False, b"\\xb1\\x10"), (True, b"gh")], 9)
     ([(False, b'\\xb0'), (True, b'abcd')], [(True, b'ef'), (False, b'\\xb1\\x10'), (True, b'gh')])
     """
     before: list[Run] = []
     after: list[Run] = []
     for is_data, content in runs:
+        size -= RUN_ENVELOPE
         if size <= 0:
             after.append((is_data, content))
         elif is_data and size < len(content):

@@ -213,6 +213,7 @@ def test_any_bytes_leave_it_ready(board: Board, baudrate: int) -> None:
     board.output(115200)
     kinds = [frame.kind for frame in FrameDecoder().feed(exchange(board, HELLO + encode(Poll(1)))) if frame]
     assert kinds[-2:] == [0x81, 0x82]
+    assert board.untouched_ram > 500  # neither the stack nor a stray write came there
 
 
 def test_acknowledgements_twice_late_and_out_of_order_do_no_harm(board: Board) -> None:

@@ -15,7 +15,7 @@ from firmware_protocol.device import UNO
 from firmware_protocol.frames import FRAME_OVERHEAD, wire_size
 from firmware_protocol.messages import Kind
 from firmware_protocol.pace import BUS_BYTE, Pace, Work
-from firmware_protocol.runs import LEAST_PAYLOAD, pack_runs, unpack_runs
+from firmware_protocol.runs import LEAST_PAYLOAD, bus_bytes, pack_runs, unpack_runs
 
 RATES = (57_600, 115_200, 230_400, 500_000)
 RUNS = st.lists(
@@ -28,7 +28,7 @@ def seconds(payloads: list[bytes], rate: int) -> float:
     there = done = 0.0
     for payload in payloads:
         there += (len(payload) + FRAME_OVERHEAD) * 10 / rate
-        done = max(done, there) + BUS_BYTE * sum(len(content) for _, content in unpack_runs(payload))
+        done = max(done, there) + BUS_BYTE * bus_bytes(unpack_runs(payload))
     return done
 
 
