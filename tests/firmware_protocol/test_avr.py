@@ -293,6 +293,16 @@ def test_a_line_at_another_rate_than_the_host_believes(board: Board, factor: flo
     assert port.panel.ram == picture
 
 
+def test_the_options_of_the_readme(tmp_path: Path) -> None:
+    text = (FIRMWARE / "README.md").read_text()
+    options = [option.strip("'") for option in re.findall(r"`OPTIONS=('[^']+'|\S+)`", text)]
+    board = Board(*built(tmp_path, " ".join(options)))
+    board.run(HZ // 50)
+    said = joined(board)[1].device
+    assert (said.controller, said.width, said.height, said.address) == ("sh1106", 128, 64, 0x3D)
+    board.close()
+
+
 def test_the_readme_names_the_files_that_are_made() -> None:
     text = (FIRMWARE / "README.md").read_text()
     assert re.search(r"avrdude .*build/atmega328p/paneldraw\.hex", text)
