@@ -21,6 +21,8 @@ except ImportError:  # Windows
 SHORTEST = wire_size(1)
 
 _READ_TIMEOUT = 0.02
+#: Bytes taken at a time, however many wait.
+_MOST = 4096
 
 
 @dataclass
@@ -107,7 +109,8 @@ class Line:
     def receive(self) -> list[Message]:
         """Return the messages that have come; waits a little where there are none. LinkLostError as in `send`."""
         try:
-            data = self.port.read(max(self.port.in_waiting, SHORTEST - self._decoder.held, 1))
+            waiting = min(self.port.in_waiting, _MOST)
+            data = self.port.read(max(waiting, SHORTEST - self._decoder.held, 1))
         except PORT_ERRORS as error:
             self._lose(error)
         self.stats.bytes_received += len(data)

@@ -20,7 +20,7 @@ from firmware_protocol.errors import (
     PanelFaultError,
     VersionError,
 )
-from firmware_protocol.frames import DELIMITER, FRAME_OVERHEAD, encode_frame, wire_size
+from firmware_protocol.frames import DELIMITER, encode_frame, wire_size
 from firmware_protocol.line import PORT_ERRORS, Line, LinkStats
 from firmware_protocol.messages import (
     BASE_BAUDRATE,
@@ -40,7 +40,8 @@ from firmware_protocol.messages import (
     cause_text,
     encode,
 )
-from firmware_protocol.runs import LEAST_PAYLOAD, Run, pack_runs, unpack_runs
+from firmware_protocol.pace import Pace, Work
+from firmware_protocol.runs import LEAST_PAYLOAD, Run
 
 #: Seconds between two attempts to be heard, to begin with.
 PATIENCE = 0.25
@@ -52,13 +53,6 @@ HOPES = 2
 STALLED = 15.0
 #: Most frames under way; half the sequence numbers must stay unambiguous.
 MAX_IN_FLIGHT = 100
-#: Payload that a bad line shrinks frames to: at 3 errors in 1000 bytes five of six still arrive.
-BAD_LINE_PAYLOAD = 48
-
-#: Payload of the first frame of an update on a fast wire, so that the panel's bus starts early, and of the last on a
-#: slow one, so that the bus is done soon after the wire.
-SHORT = 48
-
 #: Rates outside are none that a serial line has.
 SENSIBLE_RATES = range(1_200, 20_000_001)
 
@@ -123,9 +117,10 @@ class HostLink:
         self.timeout = timeout
         self.clock = clock
         self.device = HelloReply(0)
+        self._pace = Pace(self.device, BASE_BAUDRATE)
         self._wanted_rate = baudrate
         # What is not acknowledged, and the sizes on the wire of that part of it that is under way.
-        self._work: deque[tuple[int, bytes]] = deque()
+        self._work: deque[Work] = deque()
         self._sizes: deque[int] = deque()
         self._token = 0
         self._closed = False
@@ -149,11 +144,6 @@ class HostLink:
     def baudrate(self) -> int:
         """The rate in use, bits a second."""
         return self._line.baudrate
-
-    @property
-    def message_overhead(self) -> int:
-        """Bytes a WRITE costs on the wire beyond its runs; each run costs one more byte in 32 or 128."""
-        return FRAME_OVERHEAD
 
     def connect(self) -> None:
         """Begin a new session, opening the port again if it was lost. `submit` does it where it must."""
@@ -194,7 +184,7 @@ class HostLink:
             begins anew.
         """
         self._begin()
-        self._work.extend(self._writes(runs, end))
+        self._work.extend(self._pace.writes(runs, end))
         self._pump()
         while len(self._sizes) < len(self._work):
             self._step()
@@ -280,11 +270,11 @@ class HostLink:
             return (
                 f"something talks on {self._line.name} ({received} bytes in {self.timeout:g} s), and it is not "
                 f"paneldraw's firmware at {BASE_BAUDRATE} baud: check the port, or flash the firmware "
-                "(see firmware_protocol/firmware/README.md)"
+                "(firmware_protocol/firmware/README.md in its sources)"
             )
         return (
             f"nothing answers on {self._line.name} at {BASE_BAUDRATE} baud: check the port and the cable, and that the "
-            "board runs paneldraw's firmware (see firmware_protocol/firmware/README.md)"
+            "board runs paneldraw's firmware (firmware_protocol/firmware/README.md in its sources)"
         )
 
     def _accept(self, reply: HelloReply) -> None:
@@ -297,7 +287,7 @@ class HostLink:
         if reply.max_payload < LEAST_PAYLOAD or reply.window < wire_size(LEAST_PAYLOAD):
             raise VersionError(f"the board on {self._line.name} takes too little at a time: update its firmware")
         self.device = reply
-        self._size_frames()
+        self._pace = Pace(self.device, self.baudrate)
 
     def _choose_rate(self) -> None:
         offered = [rate for rate in self.device.bauds if rate in SENSIBLE_RATES]
@@ -312,7 +302,7 @@ class HostLink:
         try:
             self._line.set_rate(wanted)
             if self._heard():
-                self._size_frames()
+                self._pace = Pace(self.device, self.baudrate)
                 return
         except PORT_ERRORS:
             pass  # an adapter that cannot do this rate
@@ -339,24 +329,7 @@ class HostLink:
         while self.clock() < until:
             self._line.receive()
 
-    def _size_frames(self) -> None:
-        # A slow wire wants few large frames; a fast one wants the next frame there when the panel is done with one.
-        self._fast = self.baudrate > 230_400
-        parts = 3 if self._fast else 2
-        self._best_payload = max(LEAST_PAYLOAD, min(self.device.max_payload, self.device.window // parts - 8))
-        self._payload_limit = self._best_payload
-        self._window = self.device.window
-
     # -- the window
-
-    def _writes(self, runs: Iterable[Run], end: bool) -> list[tuple[int, bytes]]:
-        limit, repeats = self._payload_limit, self.device.repeats
-        payloads = pack_runs(runs, limit, first=min(limit, SHORT) if self._fast else limit, repeats=repeats)
-        if not self._fast and len(payloads) > 1 and len(payloads[-1]) > 2 * SHORT:
-            last = payloads.pop()
-            payloads += pack_runs(unpack_runs(last), limit, first=len(last) - SHORT, repeats=repeats)
-        last_at = len(payloads) - 1
-        return [(Kind.WRITE_END if end and at == last_at else Kind.WRITE, p) for at, p in enumerate(payloads)]
 
     def _sequenced(self, kind: Kind, payload: bytes) -> None:
         self._work.append((kind, payload))
@@ -374,7 +347,7 @@ class HostLink:
         for kind, payload in islice(self._work, len(sizes), None):
             frame = encode_frame(kind, self._base + len(sizes) & 0xFF, payload)
             under_way += len(frame)
-            if sizes and (under_way > self._window or len(sizes) >= MAX_IN_FLIGHT):
+            if sizes and (under_way > self._pace.window or len(sizes) >= MAX_IN_FLIGHT):
                 break
             sizes.append(len(frame))
             batch.append(frame)
@@ -403,7 +376,7 @@ class HostLink:
             case Nak():
                 self.stats.naks += 1
                 if self._polling is None:
-                    self._slow_down()
+                    self._pace.slow_down()
                 self._poll()
             case Status(token) if token == self._polling:
                 self._polling = None
@@ -424,7 +397,7 @@ class HostLink:
         self._base = self._base + count & 0xFF
         self._failures = 0
         self._progress = self.clock()
-        self._speed_up(count)
+        self._pace.speed_up(count)
         self._expect()
 
     def _go_back(self, expected: int) -> None:
@@ -436,25 +409,7 @@ class HostLink:
             self._done(count)
         self.stats.resent += len(self._sizes)
         self._sizes.clear()
-        self._cut()
-
-    def _cut(self) -> None:
-        """Cut what is to be sent again into frames of the size that the line bears now."""
-        smaller: list[tuple[int, bytes]] = []
-        for kind, payload in self._work:
-            if kind in (Kind.WRITE, Kind.WRITE_END) and len(payload) > self._payload_limit:
-                smaller += self._writes(unpack_runs(payload), kind == Kind.WRITE_END)
-            else:
-                smaller.append((kind, payload))
-        self._work = deque(smaller)
-
-    def _slow_down(self) -> None:
-        self._payload_limit = max(BAD_LINE_PAYLOAD, self._payload_limit // 2)
-        self._window = max(2 * wire_size(self._payload_limit), self._window // 2)
-
-    def _speed_up(self, count: int) -> None:
-        self._payload_limit = min(self._best_payload, self._payload_limit + count)
-        self._window = min(self.device.window, self._window + 8 * count)
+        self._work = deque(piece for work in self._work for piece in self._pace.again(work))
 
     def _expect(self) -> None:
         on_the_way = 20 * sum(self._sizes) / self.baudrate
@@ -478,7 +433,7 @@ class HostLink:
             )
         if self._failures > HOPES and self.baudrate != BASE_BAUDRATE:
             self._line.set_rate(BASE_BAUDRATE)
-        self._slow_down()
+        self._pace.slow_down()
         self._poll()
 
     def _settle(self, fault: Fault) -> NoReturn:

@@ -1,7 +1,7 @@
 """What a WRITE carries: runs of command and data bytes for the panel, as a stream of tokens.
 
-The tokens are PackBits (a header below 80 opens a literal, one from A0 a repeat) in which the headers 80 to 9F, the
-longest repeats, are given to commands instead.
+The tokens are PackBits (a header below 80 opens a literal, one from C0 a repeat) in which the headers 80 to BF, the
+longest repeats, are given to commands and the few data bytes that often follow them.
 """
 
 from __future__ import annotations
@@ -10,21 +10,27 @@ import re
 from collections.abc import Iterable, Iterator
 
 MAX_LITERAL = 128
-MAX_COMMANDS = 32
-MAX_REPEAT = 97
+MAX_COMMANDS = 8
+#: Data bytes that a token of commands can hold besides.
+MAX_TRAILING = 7
+MAX_REPEAT = 65
 COMMAND_HEADER = 0x80
-REPEAT_HEADER = 0xA0
-#: A payload limit below this could not hold every command token.
-LEAST_PAYLOAD = 1 + MAX_COMMANDS
+REPEAT_HEADER = 0xC0
+#: Bytes that the panel's bus carries for a run besides its own: the address and the control byte.
+RUN_ENVELOPE = 2
+#: With a lower payload limit frames would be envelopes for the most part.
+LEAST_PAYLOAD = 32
 
-# A repeat inside a literal costs its two bytes and the header of the literal after it.
-_REPEATS = re.compile(rb"(.)\1{3,%d}" % (MAX_REPEAT - 1), re.DOTALL)
+# A repeat inside a literal costs its two bytes and the header of the literal after it: three equal bytes are never
+# cheaper in a literal. Two are, unless there is nothing but pairs and the literal falls away.
+_REPEATS = re.compile(rb"(.)\1{2,%d}" % (MAX_REPEAT - 1), re.DOTALL)
+_PAIRS = re.compile(rb"(?:(.)\1)+", re.DOTALL)
 
 #: Whether the bytes are data (True) or commands (False), and the bytes.
 Run = tuple[bool, bytes | memoryview]
 
 
-def pack_runs(runs: Iterable[Run], limit: int, *, first: int | None = None, repeats: bool = True) -> list[bytes]:
+def pack_runs(runs: Iterable[Run], limit: int, *, repeats: bool = True) -> list[bytes]:
     """Turn runs into WRITE payloads, as few as there can be.
 
     Parameters
@@ -33,9 +39,7 @@ def pack_runs(runs: Iterable[Run], limit: int, *, first: int | None = None, repe
         Whether the bytes are data (True) or commands (False), and the bytes. Commands of one run are kept in one
         payload where they fit into one.
     limit : int
-        Most bytes a payload may have, at least 33.
-    first : int, optional
-        Most bytes the first payload may have, at least 33. Default: ``limit``.
+        Most bytes a payload may have, at least 32.
     repeats : bool, default True
         Whether the device understands repeats.
 
@@ -48,10 +52,12 @@ def pack_runs(runs: Iterable[Run], limit: int, *, first: int | None = None, repe
     --------
     >>> [p.hex(" ") for p in pack_runs([(False, b"\\xb0\\x02\\x10"), (True, bytes(40))], 64)]
     ['82 b0 02 10 d9 00']
+    >>> [p.hex(" ") for p in pack_runs([(False, b"\\xb0\\x02\\x10"), (True, b"\\x01\\x02")], 64)]
+    ['92 b0 02 10 01 02']
     """
-    if min(limit, first or limit) < LEAST_PAYLOAD:
-        raise ValueError(f"limit and first must be at least {LEAST_PAYLOAD} bytes, not {limit} and {first}")
-    packer = _Packer(limit, first or limit)
+    if limit < LEAST_PAYLOAD:
+        raise ValueError(f"limit must be at least {LEAST_PAYLOAD} bytes, not {limit}")
+    packer = _Packer(limit)
     for is_data, content in runs:
         if is_data:
             packer.data(content, repeats)
@@ -82,62 +88,114 @@ def unpack_runs(payload: bytes) -> list[tuple[bool, bytes]]:
     return [(is_data, bytes(content)) for is_data, content in joined]
 
 
+def bus_bytes(runs: Iterable[Run]) -> int:
+    """Return how many bytes the panel's bus carries for runs."""
+    return sum(RUN_ENVELOPE + len(content) for _, content in runs)
+
+
+def cut_runs(runs: Iterable[Run], size: int) -> tuple[list[Run], list[Run]]:
+    """Cut runs in two after so many bytes on the panel's bus. Commands stay whole, and with the data after them.
+
+    Examples
+    --------
+    >>> cut_runs([(False, b"\\xb0"), (True, b"abcdef"), (False, b"\\xb1\\x10"), (True, b"gh")], 9)
+    ([(False, b'\\xb0'), (True, b'abcd')], [(True, b'ef'), (False, b'\\xb1\\x10'), (True, b'gh')])
+    """
+    before: list[Run] = []
+    after: list[Run] = []
+    for is_data, content in runs:
+        size -= RUN_ENVELOPE
+        if size <= 0:
+            after.append((is_data, content))
+        elif is_data and size < len(content):
+            before.append((True, content[:size]))
+            after.append((True, content[size:]))
+        else:
+            before.append((is_data, content))
+        size -= len(content)
+    while before and not before[-1][0]:
+        after.insert(0, before.pop())
+    return before, after
+
+
 def _tokens(payload: bytes) -> Iterator[tuple[bool, bytes]]:
     at = 0
     while at < len(payload):
         header = payload[at]
-        at += 1
-        if header >= REPEAT_HEADER:
-            length, content = 1, payload[at : at + 1] * (257 - header)
-        else:
-            length = header - COMMAND_HEADER + 1 if header >= COMMAND_HEADER else header + 1
-            content = payload[at : at + length]
-        at += length
+        commands, data = _sizes(header)
+        start, at = at + 1, at + 1 + commands + data
         if at > len(payload):
             raise ValueError(f"the payload ends inside the token {header:02x}")
-        yield not COMMAND_HEADER <= header < REPEAT_HEADER, content
+        if commands:
+            yield False, payload[start : start + commands]
+        if data:
+            yield True, payload[start + commands : at] * (257 - header if header >= REPEAT_HEADER else 1)
+
+
+def _sizes(header: int) -> tuple[int, int]:
+    """How many bytes of commands and of data follow a header."""
+    if header >= REPEAT_HEADER:
+        return 0, 1
+    if header >= COMMAND_HEADER:
+        return (header & 7) + 1, header >> 3 & 7
+    return 0, header + 1
 
 
 class _Packer:
     """Fills payloads token by token."""
 
-    def __init__(self, limit: int, first: int) -> None:
-        self.later = limit
-        self.limit = first
+    def __init__(self, limit: int) -> None:
+        self.limit = limit
         self.payload = bytearray()
         self.done: list[bytes] = []
+        # Where the token of commands stands that the payload ends with.
+        self.open: int | None = None
 
     def finish(self) -> list[bytes]:
         if self.payload:
             self.done.append(bytes(self.payload))
             self.payload.clear()
-            self.limit = self.later
+            self.open = None
         return self.done
 
     def commands(self, content: bytes | memoryview) -> None:
         size = len(content) + -(-len(content) // MAX_COMMANDS)
-        if size > self.limit - len(self.payload) and size <= self.later:
+        if size > self.limit - len(self.payload) and size <= self.limit:
             self.finish()
         for at in range(0, len(content), MAX_COMMANDS):
             part = content[at : at + MAX_COMMANDS]
             if len(self.payload) + 1 + len(part) > self.limit:
                 self.finish()
+            self.open = len(self.payload)
             self.payload.append(COMMAND_HEADER + len(part) - 1)
             self.payload += part
 
     def data(self, content: bytes | memoryview, repeats: bool) -> None:
+        if not repeats or len(content) < 2:
+            self._literal(content)
+            return
         at = 0
-        if repeats and len(content) > 3:
-            for match in _REPEATS.finditer(content):
-                self._literal(content[at : match.start()])
-                at = match.end()
-                if len(self.payload) + 2 > self.limit:
-                    self.finish()
-                self.payload += bytes((257 - (at - match.start()), content[at - 1]))
-        self._literal(content[at:])
+        for match in _REPEATS.finditer(content):
+            self._between(content[at : match.start()])
+            at = match.end()
+            self._repeat(at - match.start(), content[at - 1])
+        self._between(content[at:])
+
+    def _between(self, content: bytes | memoryview) -> None:
+        if _PAIRS.fullmatch(content):
+            for value in content[::2]:
+                self._repeat(2, value)
+        else:
+            self._literal(content)
+
+    def _repeat(self, times: int, value: int) -> None:
+        if len(self.payload) + 2 > self.limit:
+            self.finish()
+        self.open = None
+        self.payload += bytes((257 - times, value))
 
     def _literal(self, content: bytes | memoryview) -> None:
-        at = 0
+        at = self._trailing(content)
         while at < len(content):
             if len(self.payload) + 2 > self.limit:
                 self.finish()
@@ -145,3 +203,13 @@ class _Packer:
             self.payload.append(len(part) - 1)
             self.payload += part
             at += len(part)
+
+    def _trailing(self, content: bytes | memoryview) -> int:
+        """Put the first bytes into a token of commands that is open; return how many."""
+        if self.open is None or not content:
+            return 0
+        size = min(MAX_TRAILING, len(content), self.limit - len(self.payload))
+        self.payload[self.open] += size << 3
+        self.payload += content[:size]
+        self.open = None
+        return size

@@ -63,6 +63,14 @@ def _take_out():
 
 
 @pytest.fixture(scope="session")
+def binaries(tmp_path_factory):
+    """The rig that emulates an ATmega328P, and the firmware for it; skips where they cannot be built."""
+    from emulated import built
+
+    return built(tmp_path_factory.mktemp("atmega328p"))
+
+
+@pytest.fixture(scope="session")
 def sources(tmp_path_factory):
     return Sources(tmp_path_factory.mktemp("sources"))
 

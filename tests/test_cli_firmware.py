@@ -7,7 +7,7 @@ import time
 from dataclasses import replace
 
 import pytest
-from far_ends import Board, serial
+from far_ends import Board, EmulatedBoard, serial
 from running import assert_one_line_of_advice, run
 
 from firmware_protocol.device import UNO
@@ -65,6 +65,20 @@ def test_monitor(board):
     assert len(rows) >= 2
     for row in rows:
         assert row.split()[2:] == ["0", "0", "1", "0", "0", "none"]
+
+
+def test_the_firmware_on_the_emulated_chip(tmp_path, binaries):
+    board = EmulatedBoard(binaries, tmp_path / "ttyBOARD")
+    said = dict(line.split(":", 1) for line in run("firmware", "info", board.path).stdout.splitlines())
+    assert said["firmware"].strip() == "paneldraw-atmega328p 1.0"
+    assert said["panel"].strip() == "ssd1306 128x64 on I2C at 0x3C, answers"
+    assert (
+        "at 115200 baud: 5 round trips"
+        in run("firmware", "ping", board.path, "--count", 5, "--baudrate", 115200).stdout
+    )
+    rows = run("firmware", "monitor", board.path, "--seconds", 0.3, "--interval", 0.2).stdout.splitlines()
+    assert [row.split()[-1] for row in rows] == ["fault", "none", "none"]
+    board.pull_out()
 
 
 def test_monitor_sees_a_restart(board, capsys, monkeypatch):

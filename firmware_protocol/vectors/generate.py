@@ -62,7 +62,8 @@ def conversations() -> dict[str, list[Step]]:
             hello,
             picture(0, (False, b"\xae"), (False, b"\xd5\x80"), row, row, (True, b"\1"), (False, bytes(range(40)))),
             encode(Write(1, b"")),
-            encode(Write(2, b"\x80\xa6\x80\xa7\x00\x01\xff\x02\x9f" + bytes(32), False)),
+            encode(Write(2, b"\x80\xa6\x80\xa7\x00\x01\xff\x02\xc0\x03\x87" + bytes(8), False)),
+            encode(Write(3, b"\x90\xa6\x01\x02\x00\x03\x80\xa7\x80\xae\xbf" + bytes(range(15)), False)),
         ],
         "a damaged frame, then recovery": [
             hello, picture(0, *pixel), damaged(picture(1, *pixel)), picture(2, *pixel), damaged(picture(3, *pixel)),
@@ -90,9 +91,10 @@ def conversations() -> dict[str, list[Step]]:
             encode(Baud(4, 500_000)), encode(Poll(1)), encode(Reset(5)), picture(6, *pixel), "! gone", hello,
         ],
         "malformed writes": [
-            hello, encode(Write(0, b"\x05\x01")), encode(Reset(1)), encode(Write(2, b"\x00\x11\xa0")), encode(Reset(3)),
-            encode(Write(4, b"\x9f\x11")), encode(Reset(5)), encode_frame(0x13, 6), encode_frame(0x12, 7, b"\1\2\3"),
-            encode(Reset(8)), encode_frame(0x1F, 9, b"?"), picture(10, *pixel), encode(Reset(11)), picture(12, *pixel),
+            hello, encode(Write(0, b"\x05\x01")), encode(Reset(1)), encode(Write(2, b"\x00\x11\xc0")), encode(Reset(3)),
+            encode(Write(4, b"\x91\xae\xaf\x11")), encode(Reset(5)), encode_frame(0x13, 6),
+            encode_frame(0x12, 7, b"\1\2\3"), encode(Reset(8)), encode_frame(0x1F, 9, b"?"), picture(10, *pixel),
+            encode(Reset(11)), picture(12, *pixel),
         ],
         "a rate that is not offered": [
             hello, encode(Baud(0, 9600)), encode(Reset(1, pulse=True)), encode(Baud(2, 250_000)),

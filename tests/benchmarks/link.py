@@ -5,18 +5,39 @@ Simulated figures are the same on every machine. Needs what `tests/firmware_prot
 
 from __future__ import annotations
 
+import contextlib
 import os
-import random
 import sys
 import tempfile
 import time
+from collections.abc import Callable, Iterator
 from pathlib import Path
+from statistics import mean, median
+from typing import TYPE_CHECKING
+
+import measure
+import numpy as np
+import numpy.typing as npt
+from scenes import FRAMES, frames
+
+from paneldraw import Panel, simulator
+from paneldraw.controllers import SSD1306
+from paneldraw.demos.scenes import SCENES
+from paneldraw.transports import SerialTransport
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "firmware_protocol"))
 
-PIXEL = [(False, bytes.fromhex("b00810")), (True, b"\xff")]
+if TYPE_CHECKING:
+    from emulated import Board, BoardPort
+    from simulated import Noise
+
+MakeBoard = Callable[[], "Board"]
+
+CPU_WANTED = 150
+PIXEL_BYTES, PIXEL_MS = 13, 1.5
+SCENES_AT, SCENES_WANTED = 115_200, 60
+NOISE_WANTED = 2.2
 EACH = 0.001
-#: Screens a kind of fault, as many as a claim needs.
 SCREENS = 200
 
 
@@ -24,7 +45,8 @@ def run(rounds: int) -> None:
     """Print the figures; ``rounds`` counts for the one that a clock measures."""
     host_cpu(rounds)
     import pytest
-    from emulated import Board, built
+    from emulated import HZ, Board, built
+    from simulated import Noise
 
     with tempfile.TemporaryDirectory() as folder:
         try:
@@ -35,80 +57,166 @@ def run(rounds: int) -> None:
 
         def board() -> Board:
             fresh = Board(*binaries)
-            fresh.run(320_000)
+            fresh.run(HZ // 50)
             return fresh
 
         for baudrate, wanted in ((115_200, 10.5), (500_000, 33.0), (1_000_000, None)):
-            throughput(board(), baudrate, wanted)
-        for name, noise in (
-            ("flipped", (EACH, 0.0, 0.0)),
-            ("dropped", (0.0, EACH, 0.0)),
-            ("inserted", (0.0, 0.0, EACH)),
-            ("together", (EACH, EACH, EACH)),
-        ):
-            noisy(board(), board(), name, noise)
+            whole_pictures(board, baudrate, wanted)
+        for baudrate in (115_200, 500_000):
+            pixels(board, baudrate)
+        scenes(board)
+        kinds = {
+            "flipped": Noise(flip=EACH),
+            "dropped": Noise(drop=EACH),
+            "inserted": Noise(insert=EACH),
+            "together": Noise(EACH, EACH, EACH),
+        }
+        for baudrate in (115_200, 500_000):
+            for name, noise in kinds.items():
+                noisy(board, baudrate, name, noise)
 
 
-def throughput(board, baudrate: int, wanted: float | None) -> None:  # type: ignore[no-untyped-def]
-    """Print random whole pictures a second, and what one pixel takes."""
-    from emulated import BoardPort
-    from simulated import whole
+class Screen:
+    """A panel with the emulated board behind it, and the simulated chip behind that."""
 
-    from firmware_protocol import HostLink
+    def __init__(self, board: Board, baudrate: int, noise: Noise | None) -> None:
+        from emulated import BoardPort
 
-    port = BoardPort(board)
-    rng = random.Random(1)
-    with HostLink(port, baudrate=baudrate, clock=port.clock) as link:
-        link.write(whole(bytes(1024)))
-        start = port.clock()
-        for _ in range(30):
-            link.write([(True, rng.randbytes(1024))])
-        rate = 30 / (port.clock() - start)
-        start = port.clock()
-        bytes_sent = link.write(PIXEL)
-        trip = 1000 * (port.clock() - start)
-    board.close()
+        self.port: BoardPort = BoardPort(board, noise=noise, seed=5)
+        self.chip = simulator.SSD1306(128, 64, history=1)
+        self.port.panel = self.chip.write
+        transport = SerialTransport(self.port, baudrate, clock=self.port.clock)
+        self.panel = Panel(SSD1306(128, 64), transport)
+
+    def shows(self, picture: npt.NDArray[np.uint8]) -> bool:
+        """Whether an eye would see the picture."""
+        self.port.read()
+        return np.array_equal(self.chip.pixels, picture)
+
+    def show(self, picture: npt.NDArray[np.uint8]) -> tuple[int, float]:
+        """Show a picture; return bytes on the wire and seconds of the board's time."""
+        start = self.port.clock()
+        sent = self.panel.show(picture).wire_bytes
+        return sent, self.port.clock() - start
+
+    def show_all(self, pictures: list[npt.NDArray[np.uint8]]) -> float:
+        """Show pictures one after the other, see that the last is there, and return frames a second."""
+        seconds = sum(self.show(picture)[1] for picture in pictures)
+        if not self.shows(pictures[-1]):
+            raise RuntimeError("the panel shows another picture")
+        return len(pictures) / seconds
+
+
+@contextlib.contextmanager
+def screen(board: MakeBoard, baudrate: int, noise: Noise | None = None) -> Iterator[Screen]:
+    """A new board with a panel on it, until it is done with."""
+    made = board()
+    one = Screen(made, baudrate, noise)
+    yield one
+    one.panel.close()
+    made.close()
+
+
+def random_pictures(count: int) -> list[npt.NDArray[np.uint8]]:
+    """Pictures of noise, the same in each run."""
+    return list(np.random.default_rng(2).integers(0, 2, (count, 64, 128), np.uint8))
+
+
+def whole_pictures(board: MakeBoard, baudrate: int, wanted: float | None) -> None:
+    """Print random whole pictures a second, and how much of the wire they take."""
+    first, *pictures = random_pictures(31 if measure.SAMPLE else 4)
+    with screen(board, baudrate) as one:
+        one.show(first)
+        rate = one.show_all(pictures)
     aim = f" (wanted {wanted})" if wanted else ""
-    print(f"  {baudrate:>9} baud: {rate:5.2f} random pictures/s{aim}; one pixel {bytes_sent} bytes, {trip:.2f} ms")
+    share = 100 * rate * 1024 / (baudrate / 10)
+    print(f"  {baudrate:>9} baud: {rate:5.2f} random pictures/s{aim}, {share:.0f} % of the wire")
 
 
-def noisy(clean, board, name: str, noise: tuple[float, float, float]) -> None:  # type: ignore[no-untyped-def]
+def pixels(board: MakeBoard, baudrate: int) -> None:
+    """Print what single pixels take, those right after a whole picture included."""
+    pick = np.random.default_rng(3)
+    pictures = random_pictures(20 if measure.SAMPLE else 2)
+    trips = []
+    with screen(board, baudrate) as one:
+        for picture in pictures:
+            one.show(picture)
+            for _ in range(5):
+                picture[pick.integers(64), pick.integers(128)] ^= 1
+                trips.append(one.show(picture))
+        if not one.shows(picture):
+            raise RuntimeError("the panel shows another picture")
+    sizes, seconds = zip(*trips, strict=True)
+    aim = f" (wanted {PIXEL_MS})" if baudrate == 500_000 else ""
+    print(
+        f"  {baudrate:>9} baud: one pixel {min(sizes)} to {max(sizes)} bytes (wanted {PIXEL_BYTES}), "
+        f"round trip {1000 * median(seconds):.2f}, at most {1000 * max(seconds):.2f} ms{aim}"
+    )
+
+
+def scenes(board: MakeBoard) -> None:
+    """Print frames a second of the ten scenes; a show returns when the panel's bus has acknowledged the frame."""
+    count = FRAMES if measure.SAMPLE else 12
+    rates = {}
+    for name, scene in SCENES.items():
+        first, *rest = (np.array(fb.pixels) for fb in frames(scene, count))
+        with screen(board, SCENES_AT) as one:
+            one.show(first)
+            rates[name] = one.show_all(rest)
+    print(f"  {SCENES_AT:>9} baud: " + ", ".join(f"{name} {rate:.0f}" for name, rate in rates.items()) + " frames/s")
+    overall = 1 / mean(1 / rate for rate in rates.values())
+    print(
+        f"  ten scenes: {overall:.0f} frames/s over all frames, mean of the scenes {mean(rates.values()):.0f} "
+        f"(wanted {SCENES_WANTED})"
+    )
+
+
+def noisy(board: MakeBoard, baudrate: int, name: str, noise: Noise) -> None:
     """Print how many screens come right over a noisy line, and what they cost on the wire, both ways."""
-    from emulated import BoardPort
-    from simulated import Noise, whole
+    pictures = random_pictures(SCREENS if measure.SAMPLE else 4)
 
-    from firmware_protocol import HostLink
+    def cost(noise: Noise | None, pictures: list[npt.NDArray[np.uint8]]) -> tuple[int, float]:
+        with screen(board, baudrate, noise) as one:
+            before = one.port.carried
+            right = 0
+            for picture in pictures:
+                one.show(picture)
+                right += one.shows(picture)
+            return right, (one.port.carried - before) / len(pictures)
 
-    def cost(port: BoardPort, count: int) -> tuple[int, float]:
-        rng = random.Random(2)
-        right = 0
-        link = HostLink(port, baudrate=500_000, clock=port.clock)
-        before = port.carried
-        for _ in range(count):
-            picture = rng.randbytes(1024)
-            link.write(whole(picture))
-            port.read()
-            right += port.panel.ram == picture
-        return right, (port.carried - before) / count
-
-    _, once = cost(BoardPort(clean), 10)
-    right, each = cost(BoardPort(board, noise=Noise(*noise), seed=5), SCREENS)
-    clean.close()
-    board.close()
-    print(f"  1 in 1000 bytes {name:8}: {right} of {SCREENS} screens right, wire cost {each / once:.2f} (wanted 2.2)")
+    _, once = cost(None, pictures[:10])
+    right, each = cost(noise, pictures)
+    print(
+        f"  {baudrate:>9} baud: 1 in 1000 bytes {name}: {right} of {len(pictures)} screens right, "
+        f"wire cost {each / once:.2f} (wanted {NOISE_WANTED})"
+    )
 
 
 def host_cpu(rounds: int) -> None:
-    """Print the host's CPU time for one pixel over a pseudo-terminal, the device in a process of its own."""
+    """Print the host's CPU time for `show` of one pixel, the device in a process of its own on a pseudo-terminal."""
     if not hasattr(os, "fork"):
         print("  host CPU for one pixel: no pseudo-terminals here")
         return
+    with device_process() as name, Panel(SSD1306(128, 64), SerialTransport(name)) as panel:
+        picture = np.zeros((64, 128), np.uint8)
+        panel.show(picture)
+        samples = []
+        for _ in range(rounds):
+            start = time.process_time()
+            for place in range(200):
+                picture[place % 64, 37 * place % 128] ^= 1
+                panel.show(picture)
+            samples.append((time.process_time() - start) / 200)
+    print(f"  host CPU to show one pixel: {1e6 * median(samples):.0f} us (wanted {CPU_WANTED})")
+
+
+@contextlib.contextmanager
+def device_process() -> Iterator[str]:
+    """A pseudo-terminal with the reference device on its far end, in a child process; gives the name of ours."""
     import pty
     import tty
 
-    import serial
-
-    from firmware_protocol import Device, HostLink
+    from firmware_protocol import Device
 
     far, near = pty.openpty()
     tty.setraw(near)
@@ -121,15 +229,9 @@ def host_cpu(rounds: int) -> None:
         finally:
             os._exit(0)
     os.close(far)
-    link = HostLink(serial.Serial(os.ttyname(near), 115200))
-    samples = []
-    for _ in range(rounds):
-        start = time.process_time()
-        for _ in range(200):
-            link.write(PIXEL)
-        samples.append((time.process_time() - start) / 200)
-    os.kill(child, 9)
-    os.waitpid(child, 0)
-    link.close()
-    os.close(near)
-    print(f"  host CPU for one pixel: {1e6 * sorted(samples)[len(samples) // 2]:.0f} us (wanted 150)")
+    try:
+        yield os.ttyname(near)
+    finally:
+        os.kill(child, 9)
+        os.waitpid(child, 0)
+        os.close(near)

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import random
+import re
 import select
 import socket
 import threading
+import time
 from collections.abc import Callable
 from pathlib import Path
 
+import emulated
 import pytest
 from simulated import Noise, PagePanel
 
@@ -18,25 +22,29 @@ from firmware_protocol import Device, HelloReply
 serial = pytest.importorskip("serial", reason="pyserial is not installed")
 pty = pytest.importorskip("pty", reason="no pseudo-terminals here")
 tty = pytest.importorskip("tty", reason="no pseudo-terminals here")
+termios = pytest.importorskip("termios", reason="no pseudo-terminals here")
 rfc2217 = pytest.importorskip("serial.rfc2217")
 
 Panel = Callable[[bytes], None]
 Noisy = Callable[[bytes, random.Random], bytes]
 
 
-class Board:
-    """A device behind a pseudo-terminal that hangs at ``path``, with a noisy line."""
+class PtyBoard:
+    """Something that runs in a thread behind a pseudo-terminal that hangs at ``path``.
 
-    def __init__(
-        self, path: Path, noise: Noisy | None = None, panel: Panel | None = None, profile: HelloReply | None = None
-    ) -> None:
+    Attributes
+    ----------
+    taken : int
+        Bytes that have come from the host.
+    trouble : str
+        What the panel's bus does: ``"absent"`` (nobody answers), ``"stuck"``, or nothing unusual.
+    """
+
+    def __init__(self, path: Path, panel: Panel | None) -> None:
         self.path = path
-        self.noise = noise or Noise()
-        self.rng = random.Random(7)
         self.panel = panel or PagePanel()
-        self.device = Device(lambda content: self.panel(content), profile=profile)
         self.taken = 0
-        self.reset_due = False
+        self.trouble = ""
         self.plug_in()
 
     def plug_in(self) -> None:
@@ -57,19 +65,76 @@ class Board:
             os.close(handle)
 
     def run(self) -> None:
+        """Live until there is something to read from ``quit``."""
+        raise NotImplementedError
+
+    def come(self, timeout: float | None = None) -> bytes | None:
+        """Return what the host sent, no bytes if nothing came in time, and None when it is time to quit."""
+        ready = select.select([self.far, self.quit], [], [], timeout)[0]
+        if self.quit in ready:
+            return None
+        data = os.read(self.far, 4096) if ready else b""
+        self.taken += len(data)
+        return data
+
+
+class Board(PtyBoard):
+    """The reference device, with a noisy line."""
+
+    def __init__(
+        self, path: Path, noise: Noisy | None = None, panel: Panel | None = None, profile: HelloReply | None = None
+    ) -> None:
+        self.noise = noise or Noise()
+        self.rng = random.Random(7)
+        self.device = Device(self.write, profile=profile)
+        self.reset_due = False
+        super().__init__(path, panel)
+
+    def run(self) -> None:
         self.say(self.device.reset(1))
-        while self.quit not in (ready := select.select([self.far, self.quit], [], [])[0]):
-            assert ready == [self.far]
-            data = os.read(self.far, 4096)
-            self.taken += len(data)
+        while (data := self.come()) is not None:
             answer = self.device.receive(self.noise(data, self.rng))
             if self.reset_due:  # what it would have answered is lost with it
                 self.reset_due = False
                 answer = self.device.reset(8)
             self.say(answer)
 
+    def write(self, content: bytes) -> None:
+        if self.trouble:
+            raise OSError(errno.EREMOTEIO if self.trouble == "absent" else errno.ETIMEDOUT, self.trouble)
+        self.panel(content)
+
     def say(self, data: bytes) -> None:
         os.write(self.far, self.noise(data, self.rng))
+
+
+class EmulatedBoard(PtyBoard):
+    """The firmware on the emulated chip, at the speed of its wire and of the clock on the wall."""
+
+    def __init__(self, binaries: tuple[Path, Path], path: Path, panel: Panel | None = None) -> None:
+        self.chip = emulated.Board(*binaries)
+        super().__init__(path, panel)
+
+    def run(self) -> None:
+        self.chip.reset(power=True)
+        start, first = time.monotonic(), self.chip.cycle
+        while (data := self.come(0.001)) is not None:
+            rate = line_rate(self.near)
+            self.chip.panel(absent=self.trouble == "absent", stuck=self.trouble == "stuck")
+            self.chip.feed(data, rate)
+            self.chip.run(first + round((time.monotonic() - start) * emulated.HZ))
+            for content in self.chip.transactions():
+                self.panel(content)
+            if answer := self.chip.output(rate):
+                os.write(self.far, answer)
+
+
+def line_rate(handle: int) -> int:
+    """Return the rate that a terminal is set to, in bits a second."""
+    speed = termios.tcgetattr(handle)[4]
+    return next(
+        int(name[1:]) for name in dir(termios) if re.fullmatch(r"B\d+", name) and getattr(termios, name) == speed
+    )
 
 
 class Server:

@@ -2,32 +2,23 @@
 
 from __future__ import annotations
 
-import os
 import random
 import re
-import select
 import shutil
 import subprocess
-import threading
-import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
 from c_core import FIRMWARE
 from emulated import HZ, Board, BoardPort, built
-from simulated import Noise, PagePanel, whole
+from simulated import Noise, whole
 
-from firmware_protocol import DeviceResetError, Fault, HostLink, LinkLostError, PanelFaultError, VersionError
+from firmware_protocol import DeviceResetError, Fault, HostLink, NoDeviceError, PanelFaultError, VersionError
 from firmware_protocol.frames import FrameDecoder
-from firmware_protocol.messages import Ack, Hello, HelloReply, Nak, Poll, Status, decode, encode
+from firmware_protocol.messages import Ack, Hello, HelloReply, Message, Nak, Poll, Status, decode, encode
 
 HELLO = b"\0" + encode(Hello(0x01020304))
-
-
-@pytest.fixture(scope="module")
-def binaries(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
-    return built(tmp_path_factory.mktemp("avr"))
 
 
 @pytest.fixture
@@ -222,6 +213,7 @@ def test_any_bytes_leave_it_ready(board: Board, baudrate: int) -> None:
     board.output(115200)
     kinds = [frame.kind for frame in FrameDecoder().feed(exchange(board, HELLO + encode(Poll(1)))) if frame]
     assert kinds[-2:] == [0x81, 0x82]
+    assert board.untouched_ram > 500  # neither the stack nor a stray write came there
 
 
 def test_acknowledgements_twice_late_and_out_of_order_do_no_harm(board: Board) -> None:
@@ -260,66 +252,8 @@ def test_a_host_that_leaves_at_a_fast_rate_finds_the_board_again(board: Board) -
     assert port.panel.ram == picture
 
 
-class PtyBoard:
-    """The board behind a pseudo-terminal at ``path``, at the speed of its wire and of the clock on the wall."""
-
-    def __init__(self, board: Board, path: Path) -> None:
-        self.board = board
-        self.path = path
-        self.panel = PagePanel()
-        self.plug_in()
-
-    def plug_in(self) -> None:
-        import tty
-
-        self.far, self.near = os.openpty()
-        tty.setraw(self.near)
-        self.path.symlink_to(os.ttyname(self.near))
-        self.stop = threading.Event()
-        self.thread = threading.Thread(target=self.run, daemon=True)
-        self.thread.start()
-
-    def run(self) -> None:
-        start, first = time.monotonic(), self.board.cycle
-        rate = 115200
-        while not self.stop.is_set():
-            if select.select([self.far], [], [], 0.001)[0]:
-                self.board.feed(os.read(self.far, 4096), rate)
-            self.board.run(first + round((time.monotonic() - start) * HZ))
-            if data := self.board.output(rate):
-                os.write(self.far, data)
-            for content in self.board.transactions():
-                self.panel(content)
-
-    def pull_out(self) -> None:
-        self.stop.set()
-        self.thread.join()
-        self.path.unlink()
-        os.close(self.far)
-        os.close(self.near)
-
-
-def test_real_pyserial_over_a_real_pty_to_the_firmware(board: Board, tmp_path: Path) -> None:
-    serial = pytest.importorskip("serial", reason="pyserial is not installed")
-    pytest.importorskip("termios", reason="no pseudo-terminals here")
-    behind = PtyBoard(board, tmp_path / "ttyBOARD")
-    first, second = screens(2)
-    with HostLink(serial.Serial(str(behind.path), 115200), baudrate=115200) as link:
-        link.write(whole(first))
-        behind.pull_out()
-        assert behind.panel.ram == first
-        with pytest.raises(LinkLostError, match="ttyBOARD"):
-            link.write(whole(second))
-        board.reset(power=True)
-        behind.plug_in()
-        link.write(whole(second))
-        assert link.stats.sessions == 2
-    behind.pull_out()
-    assert behind.panel.ram == second
-
-
 @pytest.mark.parametrize(("oldest", "newest", "advice"), [(2, 3, "update paneldraw"), (1, 9, "")])
-def test_firmware_of_other_versions(tmp_path: Path, oldest: int, newest: int, advice: str) -> None:
+def test_firmware_that_is_newer(tmp_path: Path, oldest: int, newest: int, advice: str) -> None:
     board = Board(*built(tmp_path, f"-DPD_OLDEST_VERSION={oldest} -DPD_NEWEST_VERSION={newest}"))
     board.run(HZ // 50)
     if advice:
@@ -327,6 +261,45 @@ def test_firmware_of_other_versions(tmp_path: Path, oldest: int, newest: int, ad
             joined(board)
     else:
         assert joined(board)[1].device.version == 1
+    board.close()
+
+
+def test_firmware_that_is_older(board: Board, monkeypatch: pytest.MonkeyPatch) -> None:
+    def newer(message: Message) -> bytes:
+        return encode(Hello(message.nonce, 2, 3) if isinstance(message, Hello) else message)
+
+    monkeypatch.setattr("firmware_protocol.link.encode", newer)
+    monkeypatch.setattr("firmware_protocol.link.OLDEST_VERSION", 2)
+    monkeypatch.setattr("firmware_protocol.link.NEWEST_VERSION", 3)
+    with pytest.raises(VersionError, match=r"speaks protocol versions 1 to 1, .* 2 to 3: update the board's firmware"):
+        joined(board)
+    monkeypatch.undo()
+    assert joined(board)[1].device.version == 1
+
+
+@pytest.mark.parametrize("factor", [0.5, 0.9, 2.0])
+def test_a_line_at_another_rate_than_the_host_believes(board: Board, factor: float) -> None:
+    """The host's adapter has the wrong clock, or the board the wrong crystal."""
+    feed, output = board.feed, board.output
+    board.feed = lambda data, baudrate: feed(data, round(baudrate * factor))  # type: ignore[method-assign]
+    board.output = lambda baudrate: output(round(baudrate * factor))  # type: ignore[method-assign]
+    with pytest.raises(NoDeviceError, match="at 115200 baud: check the port"):
+        joined(board)
+    board.feed, board.output = feed, output  # type: ignore[method-assign]
+    port, link = joined(board)
+    picture = screens(1)[0]
+    link.write(whole(picture))
+    port.read()
+    assert port.panel.ram == picture
+
+
+def test_the_options_of_the_readme(tmp_path: Path) -> None:
+    text = (FIRMWARE / "README.md").read_text()
+    options = [option.strip("'") for option in re.findall(r"`OPTIONS=('[^']+'|\S+)`", text)]
+    board = Board(*built(tmp_path, " ".join(options)))
+    board.run(HZ // 50)
+    said = joined(board)[1].device
+    assert (said.controller, said.width, said.height, said.address) == ("sh1106", 128, 64, 0x3D)
     board.close()
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+import tracemalloc
 from dataclasses import replace
 
 import pytest
@@ -271,6 +272,25 @@ def test_whatever_a_device_says_ends_in_a_link_error_or_well(random: random.Rand
     except LinkError:
         pass
     assert port.now - start < 400
+
+
+@pytest.mark.parametrize("talk", [b"\xff", b"\0", b"\1\0", encode(Status(0, 0)), encode(HelloReply(1)), encode(Ack(0))])
+def test_a_port_that_never_stops_talking_takes_no_memory(talk: bytes) -> None:
+    class Torrent(Other):
+        in_waiting = 1 << 30
+
+        def read(self, size: int = 1) -> bytes:
+            self.now += size / 200_000
+            return (talk * (size // len(talk) + 1))[:size]
+
+    port = Torrent(lambda data: b"")
+    tracemalloc.start()
+    with pytest.raises(NoDeviceError):
+        joined(port)
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert port.now < 3.1
+    assert peak < 2_000_000
 
 
 def test_noise_before_the_handshake() -> None:

@@ -7,18 +7,14 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from emulated import HZ, Board, BoardPort, built
+from emulated import HZ, Board, BoardPort
 from simulated import SimulatedPort
 
 from paneldraw import Panel, simulator
 from paneldraw.controllers import SSD1306
+from paneldraw.demos.scenes import SCENES
 from paneldraw.errors import PanelDisconnectedError
 from paneldraw.transports import SerialTransport
-
-
-@pytest.fixture(scope="module")
-def binaries(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
-    return built(tmp_path_factory.mktemp("avr"))
 
 
 @pytest.fixture
@@ -73,19 +69,45 @@ def test_a_pixel_and_nothing_by_the_emulated_chip(board: Board) -> None:
     port = BoardPort(board)
     chip = simulator.SSD1306(128, 64)
     port.panel = chip.write
+    picture = np.random.default_rng(1).integers(0, 2, (64, 128), np.uint8)
     with Panel(SSD1306(128, 64), SerialTransport(port, 500_000, clock=port.clock)) as panel:
-        draw(panel, 0)
-        for x, y in ((0, 0), (127, 63), (64, 31)):
-            with panel.frame(clear=False) as fb:
-                fb.pixel(x, y, 1, op="xor")
-            assert panel.show(fb).unchanged
-        before, start = panel.stats.wire_bytes, port.clock()
-        with panel.frame(clear=False) as fb:
-            fb.pixel(90, 45, 1, op="xor")
-        assert panel.stats.wire_bytes - before <= 13
-        assert port.clock() - start < 0.0015  # the board's time, not this machine's
-        port.read()
-        np.testing.assert_array_equal(chip.pixels, fb.pixels)
+        for whole in (True, False, False, True, True):
+            if whole:  # sent in another addressing mode than a pixel
+                picture ^= 1
+                panel.show(picture)
+                panel.show(picture ^ 1)
+                panel.show(picture)
+            for x, y in ((127, 63), (0, 0), (64, 31)):
+                picture[y, x] ^= 1
+                start = port.clock()
+                assert panel.show(picture).wire_bytes <= 13
+                assert port.clock() - start < 0.0015  # the board's time, not this machine's
+                assert panel.show(picture).unchanged
+                port.read()
+                np.testing.assert_array_equal(chip.pixels, picture)
+    assert chip.violations == []
+
+
+def test_scenes_by_the_emulated_chip_in_frames_a_second(binaries: tuple[Path, Path]) -> None:
+    seconds = 0.0
+    for scene in SCENES.values():
+        board = Board(*binaries)
+        board.run(HZ // 50)
+        port = BoardPort(board)
+        chip = simulator.SSD1306(128, 64, history=1)
+        port.panel = chip.write
+        with Panel(SSD1306(128, 64), SerialTransport(port, 115_200, clock=port.clock)) as panel:
+            fb = panel.framebuffer()
+            for number in range(31):
+                scene(fb, number)
+                start = port.clock()
+                panel.show(fb)
+                seconds += (port.clock() - start) * (number > 0)
+                port.read()
+                np.testing.assert_array_equal(chip.pixels, fb.pixels)
+        assert chip.violations == []
+        board.close()
+    assert 30 * len(SCENES) / seconds > 60
 
 
 @pytest.mark.parametrize("fault", ["reset", "power", "watchdog"])

@@ -11,10 +11,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from far_ends import Board, Server, pty, serial, tty
+from far_ends import Board, EmulatedBoard, Server, pty, serial, tty
+from hypothesis import given, settings
+from hypothesis import strategies as st
 from simulated import Noise, SimulatedPort
 
 from firmware_protocol.device import UNO
+from firmware_protocol.messages import Ack, encode
 from paneldraw import Panel, open_panel, simulator
 from paneldraw.controllers import SSD1306
 from paneldraw.errors import (
@@ -43,9 +46,13 @@ def chip():
     return simulator.SSD1306(128, 64)
 
 
-@pytest.fixture
-def board(path, chip):
-    board = Board(path, panel=chip.write)
+@pytest.fixture(params=["reference", "emulated"])
+def board(request, path, chip):
+    """A board with a panel behind a port: the reference device, or the firmware on the emulated chip."""
+    if request.param == "reference":
+        board = Board(path, panel=chip.write)
+    else:
+        board = EmulatedBoard(request.getfixturevalue("binaries"), path, chip.write)
     yield board
     board.pull_out()
 
@@ -99,21 +106,42 @@ def test_a_picture_that_is_there_already_sends_nothing(path, board):
         assert board.taken == taken
 
 
-def test_a_pixel_is_thirteen_bytes_at_most(path, board, chip):
+def part(draw):
+    """A rectangle of the panel and what fills it: noise of some density, or one level."""
+    left, top = draw(st.integers(0, 127)), draw(st.integers(0, 63))
+    right, bottom = draw(st.integers(left + 1, 128)), draw(st.integers(top + 1, 64))
+    return slice(top, bottom), slice(left, right), draw(st.sampled_from((0.0, 0.01, 0.5, 1.0)))
+
+
+WHOLE = (slice(None), slice(None), 0.5)
+SETTINGS = ("invert", "sleep", "wake", "contrast")
+BEFORE = st.one_of(st.just(WHOLE), st.composite(part)(), st.sampled_from(SETTINGS))
+
+
+@settings(max_examples=150, deadline=None)
+@given(st.lists(st.tuples(BEFORE, st.integers(0, 127), st.integers(0, 63)), max_size=6), st.integers(0, 99))
+def test_a_pixel_is_thirteen_bytes_at_most_after_anything(steps, seed):
+    port, chip, pick = SimulatedPort(), simulator.SSD1306(128, 64), np.random.default_rng(seed)
+    port.panel = chip.write
     picture = NOISE.copy()
-    pick = np.random.default_rng(4)
-    with opened(path) as panel:
+    with Panel(SSD1306(128, 64), SerialTransport(port, clock=port.clock)) as panel:
         panel.show(picture)
-        sizes = []
-        for _ in range(200):
-            picture[pick.integers(64), pick.integers(128)] ^= 1
-            taken = board.taken
-            sizes.append(panel.show(picture).wire_bytes)
-            assert board.taken - taken == sizes[-1]
-        # The first one in another place also leaves the mode in which whole pictures are sent.
-        assert sorted(sizes)[-2] <= 13
-        assert max(sizes) <= 14
+        for before, x, y in [(WHOLE, 127, 63), *steps]:
+            if before in SETTINGS:
+                getattr(panel, before)(*[7] * (before == "contrast"))
+            else:
+                rows, columns, density = before
+                picture[rows, columns] = pick.random(picture[rows, columns].shape) < density
+                panel.show(picture)
+            picture[y, x] ^= 1
+            carried = port.carried
+            sent = panel.show(picture).wire_bytes
+            assert sent <= 13
+            assert port.carried - carried == sent + len(encode(Ack(0)))
+        panel.wake()
+        panel.invert(False)
         np.testing.assert_array_equal(chip.pixels, picture)
+    assert chip.violations == []
 
 
 def test_what_repeats_is_packed(path, board, chip):
@@ -188,8 +216,7 @@ def test_a_url_that_fails_leaves_the_port_free(path):
 # Faults on the way
 
 
-def test_unplugged_and_plugged_in_again(path, chip):
-    board = Board(path, panel=chip.write)
+def test_unplugged_and_plugged_in_again(path, board, chip):
     with opened(path) as panel:
         panel.show(NOISE)
         board.pull_out()
@@ -201,11 +228,9 @@ def test_unplugged_and_plugged_in_again(path, chip):
         panel.show(INVERSE)
         np.testing.assert_array_equal(chip.pixels, INVERSE)
     assert chip.violations == []
-    board.pull_out()
 
 
-def test_plugged_in_again_where_another_program_took_the_port(path, chip):
-    board = Board(path, panel=chip.write)
+def test_plugged_in_again_where_another_program_took_the_port(path, board, chip):
     with opened(path) as panel:
         board.pull_out()
         with pytest.raises(PanelDisconnectedError):
@@ -215,7 +240,6 @@ def test_plugged_in_again_where_another_program_took_the_port(path, chip):
             panel.show(NOISE)
         panel.show(NOISE)
         np.testing.assert_array_equal(chip.pixels, NOISE)
-    board.pull_out()
 
 
 @pytest.mark.parametrize("after", [1, 3, 6])
@@ -242,35 +266,28 @@ def test_a_restart_in_the_middle_of_a_picture(path, chip, after):
     board.pull_out()
 
 
-def test_a_panel_that_is_missing_or_vanishes(path, chip):
-    def nobody(content):
-        raise OSError(errno.EREMOTEIO, "Remote I/O error")
-
-    board = Board(path, panel=nobody)
+def test_a_panel_that_is_missing_or_vanishes(path, board, chip):
+    board.trouble = "absent"
     with pytest.raises(PanelNotFoundError, match="no panel answers at 0x3c"):
         opened(path)
-    board.panel = chip.write
+    board.trouble = ""
     with opened(path) as panel:
         panel.show(NOISE)
-        board.panel = nobody
+        board.trouble = "absent"
         with pytest.raises(PanelDisconnectedError, match="no panel answers at 0x3c"):
             panel.show(INVERSE)
         chip.power_cycle()
-        board.panel = chip.write
+        board.trouble = ""
         panel.show(INVERSE)
         np.testing.assert_array_equal(chip.pixels, INVERSE)
-    board.pull_out()
 
 
 def test_a_stuck_bus(path, board, chip):
-    def stuck(content):
-        raise OSError(errno.ETIMEDOUT, "Connection timed out")
-
     with opened(path) as panel:
-        board.panel = stuck
+        board.trouble = "stuck"
         with pytest.raises(PanelTimeoutError, match="pull-up"):
             panel.show(NOISE)
-        board.panel = chip.write
+        board.trouble = ""
         panel.show(NOISE)
         np.testing.assert_array_equal(chip.pixels, NOISE)
 

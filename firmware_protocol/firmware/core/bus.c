@@ -2,20 +2,20 @@
 #include "bus.h"
 
 #define COMMANDS 0x80
-#define REPEATS 0xA0
+#define REPEATS 0xC0
 
 enum { RUN_NONE, RUN_COMMANDS, RUN_DATA, RUN_PROBE };
 
 struct pd_bus pd_bus;
 
-static inline uint8_t run_of(uint8_t header)
+static inline uint8_t commands_of(uint8_t header)
 {
-    return header >= COMMANDS && header < REPEATS ? RUN_COMMANDS : RUN_DATA;
+    return (header & 7) + 1;
 }
 
-static inline uint8_t length_of(uint8_t header)
+static inline uint8_t trailing_of(uint8_t header)
 {
-    return header >= COMMANDS ? header - COMMANDS + 1 : header + 1;
+    return header >> 3 & 7;
 }
 
 bool pd_tokens_valid(uint16_t at, uint16_t end)
@@ -23,7 +23,11 @@ bool pd_tokens_valid(uint16_t at, uint16_t end)
     uint16_t left = (end - at) & PD_RING_MASK;
     while (left) {
         uint8_t header = pd_rx.ring[at];
-        uint8_t size = header >= REPEATS ? 2 : length_of(header) + 1;
+        uint8_t size = 2;
+        if (header < COMMANDS)
+            size = header + 2;
+        else if (header < REPEATS)
+            size = 1 + commands_of(header) + trailing_of(header);
         if (size > left)
             return false;
         left -= size;
@@ -36,7 +40,7 @@ void pd_bus_write(uint16_t at, uint16_t end)
 {
     pd_bus.at = at;
     pd_bus.end = end;
-    pd_bus.left = 0;
+    pd_bus.left = pd_bus.trailing = 0;
     pd_bus.control = false;
     pd_bus.run = at == end ? RUN_PROBE : RUN_NONE;
     PD_GUARDED(pd_bus.state = PD_BUS_BUSY); /* not before the rest is there */
@@ -56,6 +60,30 @@ static inline uint8_t take(void)
     return pd_rx.ring[at];
 }
 
+/* Goes on to the next bytes of one kind; returns what they carry. The tokens are not at their end. */
+static uint8_t open_part(void)
+{
+    pd_bus.repeats = false;
+    if (pd_bus.trailing) {
+        pd_bus.left = pd_bus.trailing;
+        pd_bus.trailing = 0;
+        return RUN_DATA;
+    }
+    uint8_t header = take();
+    if (header < COMMANDS) {
+        pd_bus.left = header + 1;
+    } else if (header < REPEATS) {
+        pd_bus.left = commands_of(header);
+        pd_bus.trailing = trailing_of(header);
+        return RUN_COMMANDS;
+    } else {
+        pd_bus.repeats = true;
+        pd_bus.left = (uint8_t)(0x101 - header);
+        pd_bus.value = take();
+    }
+    return RUN_DATA;
+}
+
 uint16_t pd_bus_next(void)
 {
     pd_bus.steps++;
@@ -66,31 +94,18 @@ uint16_t pd_bus_next(void)
         }
         if (pd_bus.at == pd_bus.end)
             return PD_STOP;
-        uint8_t header = pd_rx.ring[pd_bus.at];
-        uint8_t run = run_of(header);
+        uint8_t run = open_part();
         if (run != pd_bus.run) {
             pd_bus.run = run;
             pd_bus.control = true;
             return PD_START;
         }
-        if (pd_bus.control && (run == RUN_DATA || !PD_CONTROL_EACH)) {
-            pd_bus.control = false;
-            return run == RUN_DATA ? 0x40 : 0x00;
-        }
-        take();
-        pd_bus.repeats = header >= REPEATS;
-        if (pd_bus.repeats) {
-            pd_bus.left = (uint8_t)(0x101 - header);
-            pd_bus.value = take();
-        } else {
-            pd_bus.left = length_of(header);
-        }
     }
-    if (PD_CONTROL_EACH && pd_bus.run == RUN_COMMANDS) {
-        pd_bus.control = !pd_bus.control;
-        if (!pd_bus.control)
-            return 0x80;
+    if (pd_bus.control) {
+        pd_bus.control = false;
+        return pd_bus.run == RUN_DATA ? 0x40 : PD_CONTROL_EACH ? 0x80 : 0x00;
     }
     pd_bus.left--;
+    pd_bus.control = PD_CONTROL_EACH && pd_bus.run == RUN_COMMANDS;
     return pd_bus.repeats ? pd_bus.value : take();
 }

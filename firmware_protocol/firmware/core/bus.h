@@ -8,10 +8,11 @@ enum pd_bus_state { PD_BUS_IDLE, PD_BUS_BUSY, PD_BUS_DONE };
 
 struct pd_bus {
     uint16_t at, end;     /* the tokens, in the ring */
-    uint8_t left;         /* bytes left of the token */
+    uint8_t left;         /* bytes left of the commands, the data or the repeat */
+    uint8_t trailing;     /* data bytes of the token that come after its commands */
     uint8_t value;        /* the byte that is repeated */
     uint8_t run;          /* what the transaction carries */
-    bool repeats;         /* whether the token is a repeat */
+    bool repeats;         /* whether it is a repeat */
     bool control;         /* whether a control byte is due */
     volatile uint8_t state;
     volatile uint8_t fault;

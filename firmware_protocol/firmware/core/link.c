@@ -1,12 +1,12 @@
 /* The state machine: frames in, work in order, replies out. */
 #include "bus.h"
+#include "in.h"
 #include "out.h"
 
 #define BASE_RATE 115200UL
 #define PROBATION_MS 300
 #define DOUBT_MS 1500
 #define BUS_PATIENCE_MS 25
-#define ENVELOPE 4
 
 enum kind {
     HELLO = 0x01,
@@ -31,13 +31,6 @@ struct frame {
 };
 
 struct pd_receiver pd_rx;
-
-/* The frame that is coming in. */
-static struct {
-    uint16_t read, start, write, length, crc;
-    uint8_t block, left; /* the COBS block, and how many of its bytes are to come */
-    bool damaged;
-} in;
 
 static struct {
     struct frame running, ready;
@@ -296,7 +289,7 @@ static void queue(uint8_t kind, uint8_t seq)
     link.ready.seq = seq;
     link.ready.start = in.start;
     link.ready.payload = (in.start + 2) & PD_RING_MASK;
-    link.ready.end = (in.write - 2) & PD_RING_MASK;
+    link.ready.end = (in.end - 2) & PD_RING_MASK;
 }
 
 static void nak(uint8_t reason)
@@ -308,7 +301,7 @@ static void nak(uint8_t reason)
 
 static void greet(void)
 {
-    if (in.length < ENVELOPE + 6)
+    if (in.length < IN_ENVELOPE + 6)
         return;
     uint8_t oldest = at(in.start + 6), newest = at(in.start + 7);
     if (newest > PD_NEWEST_VERSION)
@@ -334,7 +327,7 @@ static void take_sequenced(uint8_t kind, uint8_t seq)
     }
 }
 
-/* A whole frame lies between in.start and in.write. */
+/* A whole frame lies between in.start and in.end. */
 static void take_frame(void)
 {
     uint8_t kind = at(in.start);
@@ -352,69 +345,20 @@ static void take_frame(void)
         take_sequenced(kind, seq);
 }
 
-static void begin_frame(void)
+static void listen(uint16_t now)
 {
-    in.start = in.write = in.read;
-    in.length = 0;
-    in.crc = 0xFFFF;
-    in.block = in.left = 0;
-    in.damaged = false;
+    enum in_event event = in_decode();
+    if (event == IN_FRAME) {
+        take_frame();
+    } else if (event == IN_DAMAGED) {
+        link.damaged++;
+        doubt(now, DOUBT_MS);
+        if (link.version)
+            nak(1);
+    }
+    if (event != IN_NOTHING)
+        in_begin();
     release();
-}
-
-static void keep(uint8_t byte)
-{
-    if (in.length == PD_MAX_PAYLOAD + ENVELOPE) {
-        in.damaged = true;
-        return;
-    }
-    in.length++;
-    in.crc = pd_crc(in.crc, byte);
-    pd_rx.ring[in.write] = byte;
-    in.write = (in.write + 1) & PD_RING_MASK;
-}
-
-static void end_frame(uint16_t now)
-{
-    if (in.block || in.damaged) {
-        if (in.damaged || in.left || in.length < ENVELOPE || in.crc) {
-            link.damaged++;
-            doubt(now, DOUBT_MS);
-            if (link.version)
-                nak(1);
-        } else {
-            take_frame();
-        }
-    }
-    begin_frame();
-}
-
-static void decode(uint16_t now)
-{
-    uint16_t head;
-    PD_GUARDED(head = pd_rx.head);
-    for (uint8_t burst = 32; burst && in.read != head; burst--) {
-        uint8_t byte = pd_rx.ring[in.read];
-        in.read = (in.read + 1) & PD_RING_MASK;
-        if (!byte) {
-            end_frame(now);
-            return;
-        }
-        if (in.damaged) {
-            /* nothing of it is wanted */
-            in.start = in.write = in.read;
-            if (!(in.read & 15))
-                release();
-        } else if (in.left) {
-            in.left--;
-            keep(byte);
-        } else {
-            if (in.block && in.block != 0xFF)
-                keep(0);
-            in.block = byte;
-            in.left = byte - 1;
-        }
-    }
 }
 
 static void mind_rate(uint16_t now)
@@ -435,8 +379,7 @@ static void mind_rate(uint16_t now)
         link.doubtful = false;
         link.rate = BASE_RATE;
         pd_port_set_rate(BASE_RATE);
-        PD_GUARDED(in.read = pd_rx.head);
-        begin_frame();
+        in_skip();
     }
 }
 
@@ -456,7 +399,8 @@ void pd_start(uint16_t boot, uint8_t cause)
     pd_rx.overflows = pd_rx.line_errors = 0;
     out_clear();
     pd_rx.head = in.read = 0;
-    begin_frame();
+    in_begin();
+    release();
 }
 
 void pd_poll(uint16_t milliseconds)
@@ -465,5 +409,5 @@ void pd_poll(uint16_t milliseconds)
     reply();
     mind_rate(milliseconds);
     if (!link.ready.kind && !link.next_rate && !link.owed)
-        decode(milliseconds);
+        listen(milliseconds);
 }

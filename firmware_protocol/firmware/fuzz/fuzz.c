@@ -1,6 +1,7 @@
 /* libFuzzer: any bytes, in any rhythm, over the core. The first byte of each chunk says what happens besides.
  *
- * It is a fault if the sanitizers say so, if the device no longer answers a HELLO, or if more is written than came.
+ * It is a fault if the sanitizers say so, if the device no longer answers a HELLO, or if more is written to the panel
+ * than the bytes that came can stand for.
  */
 #include <stdlib.h>
 #include <string.h>
@@ -13,7 +14,25 @@ static const uint8_t hello[] = {0x00, 0x02, 0x01, 0x09, 0x04, 0x03, 0x02, 0x01, 
 void host_start(uint16_t boot, uint8_t cause);
 void host_set(bool gone, bool slow, bool stuck);
 
+/* A repeat of 65 and what the bus notes of a transaction, for two bytes. */
+#define MOST_WRITTEN 34
+
 static unsigned answered;
+static size_t came, written;
+
+static void receive(uint8_t byte)
+{
+    came++;
+    pd_receive(byte);
+}
+
+static void look_at_panel(void)
+{
+    written += host.size;
+    host.size = 0;
+    if (written > MOST_WRITTEN * came)
+        abort();
+}
 
 static void turns(unsigned count, uint16_t now)
 {
@@ -30,8 +49,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     uint16_t now = 0;
     host_start(1, 1);
     answered = 0;
+    came = written = 0;
     for (size_t i = 0; i < sizeof hello && size && data[0] & 1; i++) {
-        pd_receive(hello[i]);
+        receive(hello[i]);
         turns(3, now);
     }
     while (size >= 2) {
@@ -41,13 +61,13 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         if ((what & 0x30) == 0x30)
             pd_line_error();
         for (size_t i = 0; i < chunk; i++) {
-            pd_receive(data[2 + i]);
+            receive(data[2 + i]);
             if (what & 0x40)
                 turns(1, now);
             if (what & 0x80)
                 host_bus_step();
         }
-        host.size = 0;
+        look_at_panel();
         now += what & 0x1F;
         turns(4, now);
         data += 2 + chunk;
@@ -61,10 +81,11 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         turns(40, now += 40);
     answered = 0;
     for (size_t i = 0; i < sizeof hello; i++) {
-        pd_receive(hello[i]);
+        receive(hello[i]);
         turns(2, now);
     }
     turns(200, now);
+    look_at_panel();
     if (answered < 40)
         abort();
     return 0;

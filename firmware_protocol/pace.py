@@ -1,0 +1,98 @@
+"""How an update is cut into frames, and how much of it may be under way: what device, wire and noise make best."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from firmware_protocol.frames import FRAME_OVERHEAD, wire_size
+from firmware_protocol.messages import HelloReply, Kind
+from firmware_protocol.runs import LEAST_PAYLOAD, Run, bus_bytes, cut_runs, pack_runs, unpack_runs
+
+#: Payload that a bad line shrinks frames to: at 3 errors in 1000 bytes five of six still arrive.
+BAD_LINE_PAYLOAD = 48
+#: Bits a second above which the panel's bus takes longer than the wire.
+FAST = 230_400
+#: Seconds that a panel's bus takes for a byte: nine bits at 400 kHz. Where it takes others, updates only end later.
+BUS_BYTE = 22.5e-6
+#: Payloads up to here are not worth two frames.
+WHOLE = 12
+
+#: A sequenced message that has no number yet: its kind and its payload.
+Work = tuple[Kind, bytes]
+
+
+class Pace:
+    """Cuts updates into frames for one device at one rate; frames and window shrink with losses and grow again.
+
+    Parameters
+    ----------
+    device : HelloReply
+        What the device takes.
+    baudrate : int
+        Bits a second.
+
+    Attributes
+    ----------
+    payload : int
+        Most bytes of a payload.
+    window : int
+        Most bytes on the wire that may be unacknowledged.
+    """
+
+    def __init__(self, device: HelloReply, baudrate: int) -> None:
+        self._wire_byte = 10 / baudrate
+        # A slow wire wants few large frames; a fast one wants the next frame there when the panel is done with one.
+        self._fast = baudrate > FAST
+        parts = 3 if self._fast else 2
+        self._repeats = device.repeats
+        self._best_window = device.window
+        self._best_payload = max(LEAST_PAYLOAD, min(device.max_payload, device.window // parts - 8))
+        self.payload = self._best_payload
+        self.window = self._best_window
+
+    def writes(self, runs: Iterable[Run], end: bool) -> list[Work]:
+        """Return runs as messages; ``end`` says that they complete a picture."""
+        payloads = self._packed(runs)
+        if payloads:
+            # A fast wire waits for the panel's bus, which therefore starts early; a slow one has it end soon after.
+            cut = 0 if self._fast else len(payloads) - 1
+            payloads[cut : cut + 1] = self._overlapping(payloads[cut])
+        return _messages(payloads, end)
+
+    def again(self, work: Work) -> list[Work]:
+        """Return a message in pieces of the size that the line bears now."""
+        kind, payload = work
+        if kind not in (Kind.WRITE, Kind.WRITE_END) or len(payload) <= self.payload:
+            return [work]
+        return _messages(self._packed(unpack_runs(payload)), kind == Kind.WRITE_END)
+
+    def slow_down(self) -> None:
+        """Something was lost: send less at a time."""
+        self.payload = min(self._best_payload, max(BAD_LINE_PAYLOAD, self.payload // 2))
+        self.window = min(self._best_window, max(2 * wire_size(self.payload), self.window // 2))
+
+    def speed_up(self, count: int) -> None:
+        """So many frames have arrived."""
+        self.payload = min(self._best_payload, self.payload + count)
+        self.window = min(self._best_window, self.window + 4 * count)
+
+    def _packed(self, runs: Iterable[Run]) -> list[bytes]:
+        return pack_runs(runs, self.payload, repeats=self._repeats)
+
+    def _overlapping(self, payload: bytes) -> list[bytes]:
+        """Cut a payload in two so that the bus is done with the first part when the wire is with the second."""
+        if len(payload) <= WHOLE:
+            return [payload]
+        runs = unpack_runs(payload)
+        written = bus_bytes(runs)
+        on_bus = written * BUS_BYTE
+        on_wire, envelope = len(payload) * self._wire_byte, FRAME_OVERHEAD * self._wire_byte
+        share = (on_wire + envelope) / (on_wire + on_bus)
+        if share >= 1 or share * on_bus < 2 * envelope:  # nothing to gain, or hardly more than a frame costs
+            return [payload]
+        return [packed for part in cut_runs(runs, round(share * written)) for packed in self._packed(part)]
+
+
+def _messages(payloads: list[bytes], end: bool) -> list[Work]:
+    kinds = [Kind.WRITE] * (len(payloads) - 1) + [Kind.WRITE_END if end else Kind.WRITE]
+    return list(zip(kinds, payloads, strict=False))
