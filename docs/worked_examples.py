@@ -286,7 +286,7 @@ def levels() -> str:
             surface.dip(fb.max_level, 0)
             surface.count_in(1, 4)
             surface.cells[0] = covered
-            surface.blend(0, 0, 1)
+            surface.blend(0, 0, 1, 0)
             row.append(fb.pixels[0, 0])
         rows.append(row)
     return table("counted|depth 1|depth 2|depth 4|depth 8", rows)

@@ -6,7 +6,7 @@ cdef class ConeFilter:
     cdef readonly int resolution
     cdef object kept, kept_kernel
     cdef double *volumes
-    cdef dict bands
+    cdef object kept_band
     cdef double fitted, nearest
     cdef int *band
     cdef int farthest

@@ -16,6 +16,7 @@ import cython
 import numpy as np
 
 if cython.compiled:
+    from cython.cimports.cpython.memoryview import PyMemoryView_GET_BUFFER
     from cython.cimports.libc.math import ceil, hypot
     from cython.cimports.paneldraw.raster._floors import floored
     from cython.cimports.paneldraw.raster.surface import Surface
@@ -106,11 +107,10 @@ class ConeFilter:
         self.reach = cython.cast(cython.int, ceil(radius + 0.5)) - 1
         self.kept = _volumes(filter, resolution)
         self.fitted = 0
-        self.bands: dict[float, Any] = {}
+        self.kept_band: Any = None
         self.kept_kernel: Any = None
         if cython.compiled:
-            address: cython.size_t = self.kept.__array_interface__["data"][0]
-            self.volumes = cython.cast(cython.p_double, address)
+            self.volumes = cython.cast(cython.p_double, PyMemoryView_GET_BUFFER(memoryview(self.kept)).buf)
         else:
             self.volumes = self.kept.ravel().tolist()
 
@@ -169,29 +169,14 @@ class ConeFilter:
         """Have `band` be the coverage by the distance from the middle of a line of that width, away from its ends.
 
         Its entries are a radius / `_FINE` apart and begin at `nearest`; closer to the middle the first one holds. The
-        last one is 0. The bands of the last few widths are kept.
+        last one is 0.
         """
-        t: cython.int
-        half: cython.double = width / 2
         if width == self.fitted:
             return
-        self.nearest = max(half - self.radius, 0)
-        self.farthest = cython.cast(cython.int, ceil((half + self.radius - self.nearest) * _FINE / self.radius))
-        band = self.bands.get(width)
-        if band is None:
-            band = array("i", [0]) * (self.farthest + 1)
-            for t in range(self.farthest):
-                distance: cython.double = self.nearest + t * self.radius / _FINE
-                share: cython.double = self.profile(half - distance) - self.profile(-half - distance)
-                band[t] = floored(share * _STEPS + 0.5)
-            if len(self.bands) == 8:
-                del self.bands[next(iter(self.bands))]
-            self.bands[width] = band
-        if cython.compiled:
-            address: cython.size_t = band.buffer_info()[0]
-            self.band = cython.cast(cython.p_int, address)
-        else:
-            self.band = band
+        self.kept_band = _band(self, width)
+        self.band = _pointer_to_ints(self.kept_band)
+        self.farthest = len(self.kept_band) - 1
+        self.nearest = max(width / 2 - self.radius, 0)
         self.fitted = width
 
     @cython.cfunc
@@ -205,6 +190,27 @@ class ConeFilter:
             else:
                 self.kernel = self.kept_kernel.ravel().tolist()
         surface.begin_weighing(self.kernel, self.reach)
+
+
+@lru_cache(maxsize=32)
+def _band(cone: ConeFilter, width: Any) -> Any:
+    """The table by distance that `ConeFilter.fit` describes."""
+    t: cython.int
+    half: cython.double = width / 2
+    nearest: cython.double = max(half - cone.radius, 0)
+    band = array("i", [0]) * int(ceil((half + cone.radius - nearest) * _FINE / cone.radius) + 1)
+    for t in range(len(band) - 1):
+        distance: cython.double = nearest + t * cone.radius / _FINE
+        band[t] = int((cone.profile(half - distance) - cone.profile(-half - distance)) * _STEPS + 0.5)
+    return band
+
+
+@cython.cfunc
+def _pointer_to_ints(numbers: Any) -> cython.p_int:
+    """The numbers of an array of C's ints."""
+    if cython.compiled:
+        return cython.cast(cython.p_int, PyMemoryView_GET_BUFFER(memoryview(numbers)).buf)
+    return numbers
 
 
 @lru_cache(maxsize=16)
@@ -319,7 +325,7 @@ def strip(
             last = covered
             u += along
             v -= across
-        surface.blend(y, first, end)
+        surface.blend(y, first, end, 0)
 
 
 @cython.cfunc

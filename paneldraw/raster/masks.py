@@ -39,4 +39,4 @@ def stamp(
             covered = mask[line * width + column]
             cells[x + column] = covered - before
             before = covered
-        surface.blend(y + line, x + first, x + last)
+        surface.blend(y + line, x + first, x + last, 0)

@@ -53,7 +53,18 @@ def polygons(
     may cross itself and others. Points lie within +-2**18 pixels.
     """
     total: cython.Py_ssize_t = ends[contours - 1] if contours else 0
-    rows: cython.Py_ssize_t = surface.bottom - surface.top
+    # The rows of pixels that the shape may touch.
+    i: cython.Py_ssize_t
+    low: cython.longlong = 256 * surface.bottom
+    high: cython.longlong = 256 * surface.top
+    for i in range(total):
+        low = min(low, points[2 * i + 1])
+        high = max(high, points[2 * i + 1])
+    top: cython.Py_ssize_t = max(surface.top, (low + 127) >> 8)
+    bottom: cython.Py_ssize_t = min(surface.bottom, (high + 384) >> 8)
+    rows: cython.Py_ssize_t = bottom - top
+    if rows <= 0:
+        return
     edges: cython.pointer[Edge]
     active: cython.pointer[cython.pointer[Edge]]
     spans: cython.p_Py_ssize_t
@@ -73,27 +84,26 @@ def polygons(
         active = [None] * total
         spans = [0] * (n * (total + 2))
         starting = [0] * rows
-    if _collect(surface, points, ends, contours, n, corner, edges, starting):
-        _fill(surface, nonzero, n, edges, starting, active, spans)
+    if _collect(points, ends, contours, top, bottom, n, corner, edges, starting):
+        _fill(surface, top, bottom, nonzero, n, edges, starting, active, spans)
 
 
 @cython.cfunc
 @cython.nogil
 @cython.exceptval(check=False)
 def _collect(
-    surface: Surface,
     points: cython.p_longlong,
     ends: cython.p_Py_ssize_t,
     contours: cython.Py_ssize_t,
+    top: cython.Py_ssize_t,
+    bottom: cython.Py_ssize_t,
     n: cython.int,
     corner: cython.bint,
     edges: cython.pointer[Edge],
     starting: cython.p_int,
 ) -> cython.int:
-    """Find the edges that cross visible sub-scanlines; chain those that start in the same row. Returns their number."""
+    """Find the edges that cross sub-scanlines of these rows; chain those that start in the same row; count them all."""
     middle: cython.longlong = 256 * (n if corner else n - 1)
-    top: cython.longlong = surface.top * n
-    bottom: cython.longlong = surface.bottom * n
     count: cython.int = 0
     contour: cython.Py_ssize_t
     i: cython.Py_ssize_t
@@ -103,7 +113,7 @@ def _collect(
     winding: cython.int
     first: cython.longlong
     end: cython.longlong
-    for row in range(surface.bottom - surface.top):
+    for row in range(bottom - top):
         starting[row] = -1
     for contour in range(contours):
         before = ends[contour] - 1
@@ -118,15 +128,15 @@ def _collect(
                 x1, y1, x2, y2 = x2, y2, x1, y1
                 winding = -1
             # Sub-scanline h lies at 512 h - middle, in 512ths of a sub-pixel.
-            first = max((2 * n * y1 + middle + 511) >> 9, top)
-            end = min((2 * n * y2 + middle + 511) >> 9, bottom)
+            first = max((2 * n * y1 + middle + 511) >> 9, top * n)
+            end = min((2 * n * y2 + middle + 511) >> 9, bottom * n)
             if first >= end:
                 continue
             _place(cython.address(edges[count]), x1, y1, x2 - x1, y2 - y1, first, n, middle)
             edges[count].first = first
             edges[count].end = end
             edges[count].winding = winding
-            row = (first - top) // n
+            row = (first - top * n) // n
             edges[count].next = starting[row]
             starting[row] = count
             count += 1
@@ -171,6 +181,8 @@ def _place(
 @cython.exceptval(check=False)
 def _fill(
     surface: Surface,
+    top: cython.Py_ssize_t,
+    bottom: cython.Py_ssize_t,
     nonzero: cython.bint,
     n: cython.int,
     edges: cython.pointer[Edge],
@@ -197,9 +209,9 @@ def _fill(
     # The first row above which no active edge ends, and whether the edges are in order.
     soonest: cython.int = 0
     in_order: cython.bint = True
-    for y in range(surface.top, surface.bottom):
+    for y in range(top, bottom):
         if soonest <= y * n:
-            soonest = surface.bottom * n + 1
+            soonest = bottom * n + 1
             j = 0
             for i in range(crossing):
                 active[j] = active[i]
@@ -207,7 +219,7 @@ def _fill(
                     soonest = min(soonest, active[i].end)
                     j += 1
             crossing = j
-        next = starting[y - surface.top]
+        next = starting[y - top]
         while next >= 0:
             edge = cython.address(edges[next])
             active[crossing] = edge

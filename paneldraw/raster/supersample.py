@@ -155,4 +155,63 @@ def paint(
         x = (b * inverse) >> 32
         cells[x] -= ((b - x * n) << 32) + one
     if first < last:
-        surface.blend(y, (first * inverse) >> 32, ((last + n - 1) * inverse) >> 32)
+        first = (first * inverse) >> 32
+        last = ((last + n - 1) * inverse) >> 32
+        if last - first > 64 + 2 * count * count:
+            _blend_sparsely(surface, y, spans, count, n)
+        else:
+            surface.blend(y, first, last, 0)
+            surface.cells[last] = 0
+
+
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def _blend_sparsely(
+    surface: Surface, y: cython.Py_ssize_t, spans: cython.p_Py_ssize_t, count: cython.Py_ssize_t, n: cython.int
+) -> cython.void:
+    """Paint a row whose cells are counted, and have few spans for its width, from one of their ends to the next.
+
+    In between as many spans are open everywhere, all or none of them as a rule.
+    """
+    k: cython.Py_ssize_t
+    j: cython.Py_ssize_t
+    x: cython.Py_ssize_t
+    start: cython.Py_ssize_t
+    marks: cython.Py_ssize_t = 0
+    inverse: cython.longlong = surface.n_inverse
+    low: cython.Py_ssize_t = surface.left * n
+    high: cython.Py_ssize_t = surface.right * n
+    places: cython.int[512]
+    if not cython.compiled:
+        places = [0] * 512
+    # The pixels with a cell, in order: spans of one sub-scanline come in order, those of the next lie nearby.
+    for k in range(2 * count):
+        if max(spans[k & ~1], low) >= min(spans[k | 1], high):
+            continue
+        x = (min(max(spans[k], low), high) * inverse) >> 32
+        j = marks
+        while j > 0 and places[j - 1] > x:
+            places[j] = places[j - 1]
+            j -= 1
+        places[j] = x
+        marks += 1
+    open_spans: cython.longlong = 0
+    k = 0
+    while k < marks:
+        # Pixels with cells that follow each other closely.
+        start = places[k]
+        x = start
+        while k < marks and places[k] <= x + 1:
+            x = places[k]
+            k += 1
+        x += 1
+        open_spans = surface.blend(y, start, min(x, surface.right), open_spans)
+        # Those open at the end are cut off by the window.
+        if k == marks:
+            break
+        if open_spans == n:
+            surface.span(y, x, places[k])
+        elif open_spans:
+            surface.blend(y, x, places[k], open_spans)
+    surface.cells[surface.right] = 0

@@ -192,7 +192,7 @@ class Surface:
                 before = covered
         if visible:
             self.count_in(1, 1024)
-            self.blend(y, left, right)
+            self.blend(y, left, right, 0)
 
     @cython.cfunc
     @cython.nogil
@@ -251,15 +251,18 @@ class Surface:
     @cython.cfunc
     @cython.nogil
     @cython.exceptval(check=False)
-    def blend(self, y: cython.Py_ssize_t, x1: cython.Py_ssize_t, x2: cython.Py_ssize_t) -> cython.void:
+    def blend(
+        self, y: cython.Py_ssize_t, x1: cython.Py_ssize_t, x2: cython.Py_ssize_t, open_spans: cython.longlong
+    ) -> cython.longlong:
         """Paint pixels ``x1 <= x < x2`` of row `y`, which are in the window, by the coverage counted in `cells`.
+
+        `open_spans` is how many spans are open on the left; returned is how many are on the right.
 
         A span that begins in a pixel behind k of its n sub-pixels has added ``(k << 32) + 1`` to the pixel's cell; one
         that ends there has taken that away. So the lower half adds up to the number of spans that are open, and the
         upper half is what they leave out of this pixel. The cells are zero afterwards.
         """
         x: cython.Py_ssize_t
-        open_spans: cython.longlong = 0
         cell: cython.longlong
         covered: cython.longlong
         share: cython.longlong
@@ -299,7 +302,7 @@ class Surface:
                     pixels[base + x] = min(old + share, top)
                 else:
                     pixels[base + x] = max(old, share)
-        cells[x2] = 0
+        return open_spans
 
     @cython.cfunc
     @cython.nogil

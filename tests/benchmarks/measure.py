@@ -54,7 +54,7 @@ class Contest:
     def run(self, row: Row) -> None:
         """Time a row and print it: our time a call, and for each peer its time in multiples of ours."""
         there = [rival for rival in row.against if self.peers[rival.peer] is not None]
-        timers = [_Timer(row.ours, self.names), *(_Timer(r.statement, self.peers[r.peer] or {}) for r in there)]
+        timers = [Timer(row.ours, self.names), *(Timer(r.statement, self.peers[r.peer] or {}) for r in there)]
         samples: list[list[float]] = [[] for _ in timers]
         for turn in range(self.rounds):
             for k in range(len(timers)):
@@ -69,7 +69,7 @@ class Contest:
         print(f"  {row.name:<44}{1e6 * median(ours) / row.calls:9.3f} us   {'   '.join(cells)}", flush=True)
 
 
-class _Timer:
+class Timer:
     """Samples of a statement's CPU time, long enough to be measured."""
 
     def __init__(self, statement: str, names: Names) -> None:
