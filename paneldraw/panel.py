@@ -17,7 +17,7 @@ import numpy.typing as npt
 
 from paneldraw import urls
 from paneldraw.controllers import Controller
-from paneldraw.controllers.packing import pack_pages
+from paneldraw.controllers.packing import PACK
 from paneldraw.errors import PanelError, TransportError
 from paneldraw.framebuffer import Framebuffer, pictures
 from paneldraw.transports import I2CTransport, SerialTransport, Transport
@@ -120,6 +120,7 @@ class Panel:
         self._lock = threading.RLock()
         self._closed = False
         self._planner = Planner(controller, transport.cost)
+        self._pack = PACK[controller.packing]
         self._contrast: int | None = None
         self._inverted = False
         self._asleep = False
@@ -213,7 +214,7 @@ class Panel:
             started = time.perf_counter()
             self._check_open()
             pixels, max_level = self._levels(source)
-            pack_pages(self._upright(pixels), max_level >> 1, self._planner.fresh)
+            self._pack(self._upright(pixels), max_level, self._planner.fresh)
             if force:
                 self._planner.forget()
             report = Report(*self._retrying(self._send), time.perf_counter() - started)

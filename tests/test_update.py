@@ -9,7 +9,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from paneldraw import simulator
-from paneldraw.controllers import SSD1306, Controller
+from paneldraw.controllers import SSD1306, Controller, PagePointer
 from paneldraw.transports import COMMAND, DATA, Cost
 
 I2C = Cost(2, 2, 2)
@@ -229,7 +229,7 @@ def small_updates(draw):
         ram_width=left + width + beyond,
         ram_height=8 * pages,
         column_offset=left,
-        column_wraps=draw(st.booleans()),
+        pointer=PagePointer(wraps=draw(st.booleans())),
         chained_control=draw(st.booleans()),
     )
     cells = st.tuples(st.integers(0, pages - 1), st.integers(0, width - 1))
@@ -259,7 +259,7 @@ def _assert_cheapest(update, cost):
     planner.sent()
     pointer = controller.column_offset + column + 1
     if pointer == controller.ram_width:
-        assume(controller.column_wraps)
+        assume(controller.pointer.wraps)
         pointer = 0
     for cell in cells:
         planner.fresh[cell] += 1

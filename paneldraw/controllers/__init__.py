@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Final
 
-from paneldraw.controllers.record import Controller
+from paneldraw.controllers.record import Controller, PagePointer, Window
 from paneldraw.controllers.ssd1306 import SSD1306
 
-__all__ = ["CHIPS", "SSD1306", "Controller"]
+__all__ = ["CHIPS", "SSD1306", "Controller", "PagePointer", "Window"]
 
 CHIPS: Final[dict[str, Callable[..., Controller]]] = {"ssd1306": SSD1306}
 """Chips by the name that a panel's URL uses; each makes a record, of a width and a height in pixels if given."""

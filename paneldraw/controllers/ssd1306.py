@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from paneldraw.controllers.record import Controller
+from paneldraw.controllers.record import Controller, PagePointer, Window
 
 RAM_WIDTH, RAM_HEIGHT = 128, 64
 
@@ -92,7 +92,7 @@ def SSD1306(  # noqa: N802 - reads as the chip that it makes
         ram_width=RAM_WIDTH,
         ram_height=RAM_HEIGHT,
         column_offset=RAM_WIDTH - width - offset if mirror_x else offset,
-        addressing=("page", "window"),
-        column_wraps=True,
+        pointer=PagePointer(mode=b"\x20\x02", wraps=True),
+        window=Window(columns=0x21, rows=0x22, across=b"\x20\x00", down=b"\x20\x01"),
         chained_control=chained_control,
     )

@@ -3,15 +3,18 @@ from paneldraw.update.messages cimport Writer
 cdef class Windows:
     cdef Writer writer
     cdef int[:, ::1] pieces, boxes
+    cdef int _window_cost
 
     cdef int stream(self, int count)
     cdef int bounding(self, int count)
     cdef int grown(self, int count)
+    cdef int _partner(self, int new, int boxes)
     cdef int _saved(self, int i, int j)
     cdef void _join(self, int one, int other)
     cdef void _swap(self, int one, int other)
     cdef int tall_first(self, int count)
     cdef bint cover(self, int boxes, int piece)
+    cdef int stream_cost(self, int stream)
     cdef int cost(self, int count)
     cdef void write(self, int count)
     cdef int _commands(self, int i)

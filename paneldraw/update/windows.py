@@ -1,7 +1,7 @@
 # cython: language_level=3, boundscheck=False, wraparound=False, initializedcheck=False, cdivision=True
 """Updates as rectangles: which ones, in which order, and what they cost.
 
-A box is a rectangle of bytes (left, right, top, bottom), a piece a stretch of them (page, left, right); ends are
+A box is a rectangle of cells (left, right, top, bottom), a piece a stretch of them (row, left, right); ends are
 exclusive.
 """
 
@@ -17,13 +17,13 @@ if cython.compiled:
 else:
     from paneldraw.update.messages import Writer
 
-MOST = 24
+MOST = 64
+"""So many boxes are grown; what would be one more joins another."""
 
 _MOST = cython.declare(cython.int, MOST)
 _HORIZONTAL = cython.declare(cython.int, HORIZONTAL)
 _VERTICAL = cython.declare(cython.int, VERTICAL)
-# What one more window costs, as a rule: its commands and the framing of two messages.
-_WINDOW = cython.declare(cython.int, 10)
+_FAR = cython.declare(cython.int, 1 << 24)
 
 
 @cython.cclass
@@ -33,11 +33,13 @@ class Windows:
     def __init__(self, writer: Writer, pieces: cython.int[:, ::1]) -> None:
         self.writer = writer
         self.pieces = pieces
-        self.boxes = np.zeros((MOST, 4), np.intc)
+        self.boxes = np.zeros((MOST + 1, 4), np.intc)
+        # What one more window costs, as a rule: its commands and the framing of two messages.
+        self._window_cost = writer.command_cost + 6 + writer.data_cost
 
     @cython.cfunc
     def stream(self, count: cython.int) -> cython.int:
-        """Bytes from where the pointer stands in the open window to the last of the pieces; 0 if that is no way."""
+        """Cells from where the pointer stands in the open window to the last of the pieces; 0 if that is no way."""
         w: Writer = self.writer
         if not w.windowed() or w.column < 0 or w.window_right < 0:
             return 0
@@ -55,7 +57,7 @@ class Windows:
                 and self.pieces[i, 2] <= w.window_right
             ):
                 return 0
-            first = (self.pieces[i, 0] - w.page) * down + (self.pieces[i, 1] - w.column) * right
+            first = (self.pieces[i, 0] - w.row) * down + (self.pieces[i, 1] - w.column) * right
             last = first + (self.pieces[i, 2] - 1 - self.pieces[i, 1]) * right + 1
             if first < 0 < last:
                 return area
@@ -78,33 +80,39 @@ class Windows:
 
     @cython.cfunc
     def grown(self, count: cython.int) -> cython.int:
-        """Grow boxes from the pieces, one after the other; return how many, or 0 if they are too many."""
+        """Grow boxes from the pieces, one after the other; return how many."""
         box: cython.int[:, ::1] = self.boxes
         piece: cython.int
-        i: cython.int
         new: cython.int
-        best: cython.int
+        other: cython.int
         boxes: cython.int = 0
         for piece in range(count):
-            if boxes == _MOST:
-                return 0
             box[boxes, 0], box[boxes, 1] = self.pieces[piece, 1], self.pieces[piece, 2]
             box[boxes, 2], box[boxes, 3] = self.pieces[piece, 0], self.pieces[piece, 0] + 1
             new = boxes
             boxes += 1
-            while new >= 0:
-                best = -1
-                for i in range(boxes):
-                    if i != new and self._saved(i, new) > (self._saved(best, new) if best >= 0 else 0):
-                        best = i
-                if best >= 0:
-                    self._join(best, new)
-                    boxes -= 1
-                    self._swap(new, boxes)
-                    if best == boxes:
-                        best = new
-                new = best
+            other = self._partner(new, boxes)
+            while other >= 0:
+                self._join(other, new)
+                boxes -= 1
+                self._swap(new, boxes)
+                new = new if other == boxes else other
+                other = self._partner(new, boxes)
         return boxes
+
+    @cython.cfunc
+    def _partner(self, new: cython.int, boxes: cython.int) -> cython.int:
+        """The box that a new one is best joined to; -1 where none is worth it."""
+        i: cython.int
+        saved: cython.int
+        best: cython.int = -1
+        most: cython.int = 0 if boxes <= _MOST else -_FAR
+        for i in range(boxes):
+            if i != new:
+                saved = self._saved(i, new)
+                if saved > most:
+                    best, most = i, saved
+        return best
 
     @cython.cfunc
     @cython.inline
@@ -115,7 +123,7 @@ class Windows:
         high: cython.int = max(box[i, 3], box[j, 3]) - min(box[i, 2], box[j, 2])
         one: cython.int = (box[i, 1] - box[i, 0]) * (box[i, 3] - box[i, 2])
         other: cython.int = (box[j, 1] - box[j, 0]) * (box[j, 3] - box[j, 2])
-        return _WINDOW + one + other - wide * high
+        return self._window_cost + self.writer.cell_bytes * (one + other - wide * high)
 
     @cython.cfunc
     def _join(self, one: cython.int, other: cython.int) -> cython.void:
@@ -137,7 +145,7 @@ class Windows:
 
     @cython.cfunc
     def tall_first(self, count: cython.int) -> cython.int:
-        """Bring the boxes of more than one page to the front; return how many they are."""
+        """Bring the boxes of more than one row to the front; return how many they are."""
         i: cython.int
         tall: cython.int = 0
         for i in range(count):
@@ -160,6 +168,13 @@ class Windows:
         return False
 
     # -- Through the writer
+
+    @cython.cfunc
+    def stream_cost(self, stream: cython.int) -> cython.int:
+        """Bytes that so many cells onward in the open window take."""
+        self.writer.rehearse()
+        self.writer.cells(stream)
+        return self.writer.rehearsed()
 
     @cython.cfunc
     def cost(self, count: cython.int) -> cython.int:
@@ -202,20 +217,19 @@ class Windows:
 
     @cython.cfunc
     def _idle_tail(self, i: cython.int, mode: cython.int) -> cython.int:
-        """Unchanged bytes at the end of a box that is written in one of the two modes."""
+        """Unchanged cells at the end of a box that is written in one of the two modes."""
         box: cython.int[:, ::1] = self.boxes
-        w: Writer = self.writer
-        page: cython.int = box[i, 3] - 1
+        row: cython.int = box[i, 3] - 1
         column: cython.int = box[i, 1] - 1
         idle: cython.int = 0
-        while w.known and w.new[page - w.top, column - w.left] == w.old[page - w.top, column - w.left]:
+        while self.writer.held(row, column):
             idle += 1
             if mode == _VERTICAL:
-                page -= 1
-                if page < box[i, 2]:
-                    page, column = box[i, 3] - 1, column - 1
+                row -= 1
+                if row < box[i, 2]:
+                    row, column = box[i, 3] - 1, column - 1
             else:
                 column -= 1
                 if column < box[i, 0]:
-                    page, column = page - 1, box[i, 1] - 1
+                    row, column = row - 1, box[i, 1] - 1
         return idle
