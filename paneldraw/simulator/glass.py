@@ -13,10 +13,13 @@ from .frames import Picture
 class Scan(Protocol):
     """The registers that say how RAM rows come onto the glass."""
 
-    com_reversed: bool
     multiplex: int
     offset: int
     start_line: int
+
+    @property
+    def com_reversed(self) -> bool:
+        """Whether COM lines are reversed."""
 
     @property
     def signals(self) -> NDArray[np.intp]:

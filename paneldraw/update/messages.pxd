@@ -4,13 +4,13 @@ cdef class Writer:
     cdef int cell_bytes, width, height, left, top, ram_width
     cdef bint has_pointer, has_window, wraps
     cdef unsigned char[:, ::1] _modes, _write
-    cdef int _columns, _rows, _arguments
+    cdef int _columns, _rows, _arguments, _longest
     cdef int command_cost, data_cost, chained_cost
     cdef int mode, row, column, window_left, window_right, window_top, window_bottom
     cdef int[::1] _noted
     cdef bint _dry, _filling
     cdef int total
-    cdef int _kind
+    cdef int _kind, _length
     cdef unsigned char[::1] _out
     cdef Py_ssize_t[::1] _starts, _stops
     cdef Py_ssize_t _end, messages
@@ -35,5 +35,6 @@ cdef class Writer:
     cdef void _copy(self, int count)
     cdef void _step(self) noexcept
     cdef void _message(self, int kind)
-    cdef void _byte(self, int byte) noexcept
+    cdef void _make_room(self)
+    cdef void _byte(self, int byte)
     cdef void finish(self)

@@ -29,6 +29,7 @@ _CHAINED = cython.declare(cython.int, CHAINED)
 _HORIZONTAL = cython.declare(cython.int, HORIZONTAL)
 _VERTICAL = cython.declare(cython.int, VERTICAL)
 _PAGE = cython.declare(cython.int, PAGE)
+_ENDLESS = cython.declare(cython.int, 1 << 30)
 
 
 @cython.cclass
@@ -59,9 +60,10 @@ class Writer:
         self.command_cost, self.data_cost = cost.command, cost.data
         chained = cost.chained if controller.chained_control else None
         self.chained_cost = -1 if chained is None else chained
+        self._longest = _ENDLESS if cost.longest is None else cost.longest
         self._out, self._starts, self._stops = plan.buffer, plan.starts, plan.stops
         self._noted = np.zeros(7, np.intc)
-        self._dry, self._kind, self._filling = False, -1, False
+        self._dry, self._kind, self._length, self._filling = False, -1, 0, False
         self.begin()
         self.forget()
 
@@ -221,27 +223,34 @@ class Writer:
             self._command(self._write[0])
         self._message(_DATA)
         self._filling = True
-        self.total += count * self.cell_bytes
         run: cython.int
         while count > 0:
             run = 1
             if self.mode != _VERTICAL:
                 run = min(count, (self.ram_width if self.mode == _PAGE else self.window_right) - self.column)
-            if not self._dry:
-                self._copy(run)
+            self._copy(run)
             self.column += run - 1
             self._step()
             count -= run
 
     @cython.cfunc
-    @cython.inline
     def _copy(self, count: cython.int) -> cython.void:
-        """Put cells of one row into the plan."""
+        """Put cells of one row into the plan, in as many messages as it takes."""
         first: cython.int = self.cell_bytes * (self.column - self.left)
+        todo: cython.int = self.cell_bytes * count
+        fitting: cython.int
         i: cython.int
-        for i in range(self.cell_bytes * count):
-            self._out[self._end + i] = self.new[self.row - self.top, first + i]
-        self._end += self.cell_bytes * count
+        while todo > 0:
+            self._make_room()
+            fitting = min(todo, self._longest - self._length)
+            if not self._dry:
+                for i in range(fitting):
+                    self._out[self._end + i] = self.new[self.row - self.top, first + i]
+                self._end += fitting
+            self._length += fitting
+            self.total += fitting
+            first += fitting
+            todo -= fitting
 
     @cython.cfunc
     @cython.inline
@@ -270,7 +279,7 @@ class Writer:
         if self._kind == kind or (kind == _DATA and self._kind == _CHAINED):
             return
         self.finish()
-        self._kind, self._filling = kind, False
+        self._kind, self._length, self._filling = kind, 0, False
         if kind == _DATA:
             self.total += self.data_cost
         else:
@@ -281,9 +290,21 @@ class Writer:
             self._end += 1
 
     @cython.cfunc
-    @cython.exceptval(check=False)
+    @cython.inline
+    def _make_room(self) -> cython.void:
+        """Where the message is full, go on in another one."""
+        kind: cython.int = self._kind
+        filling: cython.bint = self._filling
+        if self._length >= self._longest:
+            self.finish()
+            self._message(kind)
+            self._filling = filling
+
+    @cython.cfunc
     def _byte(self, byte: cython.int) -> cython.void:
+        self._make_room()
         self.total += 1
+        self._length += 1
         if not self._dry:
             self._out[self._end] = byte
             self._end += 1

@@ -94,7 +94,9 @@ class Planner:
         wide, high = controller.cell
         rows, width = controller.height // high, controller.width // wide
         limit = rows * (width // 2 + 1) + 1
-        self._plan = Plan(rows * (controller.width + 16) + 64, 8 * limit)
+        payload = rows * (controller.width + 16) + 64
+        messages = 8 * limit + (payload // cost.longest if cost.longest else 0)
+        self._plan = Plan(payload + messages, messages)
         self._writer = Writer(controller, cost, self._plan)
         self._pieces = np.zeros((limit, 3), np.intc)
         self._windows = Windows(self._writer, self._pieces)
