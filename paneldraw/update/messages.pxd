@@ -26,7 +26,8 @@ cdef class Writer:
     cdef void point(self, int page, int column)
     cdef bint _pointer_byte(self, int command, bint started)
     cdef int mode_length(self, int mode) noexcept
-    cdef int window_commands(self, int left, int right, int top, int bottom)
+    cdef bint columns_hold(self, int left, int right, int rows) noexcept
+    cdef bint rows_hold(self, int top, int bottom, int columns) noexcept
     cdef void window(self, int left, int right, int top, int bottom)
     cdef void set_mode(self, int mode)
     cdef void _command(self, unsigned char[::1] command)

@@ -171,22 +171,35 @@ class Writer:
         return self._modes[mode, 0]
 
     @cython.cfunc
-    def window_commands(self, left: cython.int, right: cython.int, top: cython.int, bottom: cython.int) -> cython.int:
-        """How many bytes of a window's commands open it with the pointer at its start."""
-        count: cython.int = 0
-        if self.window_left != left or self.window_right != right or self.column != left:
-            count += 3
-        if self.window_top != top or self.window_bottom != bottom or self.row != top:
-            count += 3
-        return count
+    @cython.exceptval(check=False)
+    def columns_hold(self, left: cython.int, right: cython.int, rows: cython.int) -> cython.bint:
+        """Whether a box of so many rows needs no command for its columns.
+
+        Where data turns, the window's edges must be the box's; elsewhere it is enough that it gets so far.
+        """
+        if self.column != left or not self.windowed():
+            return False
+        if self.mode == _VERTICAL or rows == 1:
+            return self.window_right >= right
+        return self.window_left == left and self.window_right == right
+
+    @cython.cfunc
+    @cython.exceptval(check=False)
+    def rows_hold(self, top: cython.int, bottom: cython.int, columns: cython.int) -> cython.bint:
+        """Whether a box of so many columns needs no command for its rows."""
+        if self.row != top or not self.windowed():
+            return False
+        if self.mode == _HORIZONTAL or columns == 1:
+            return self.window_bottom >= bottom
+        return self.window_top == top and self.window_bottom == bottom
 
     @cython.cfunc
     def window(self, left: cython.int, right: cython.int, top: cython.int, bottom: cython.int) -> cython.void:
-        """Open a window, in a mode of windows, with what does not hold. A window written to its end is open again."""
-        if self.window_left != left or self.window_right != right or self.column != left:
+        """Bring the pointer to the start of a box, in a mode of windows, with what does not hold."""
+        if not self.columns_hold(left, right, bottom - top):
             self._bounds(self._columns, left, right - 1)
             self.window_left, self.window_right, self.column = left, right, left
-        if self.window_top != top or self.window_bottom != bottom or self.row != top:
+        if not self.rows_hold(top, bottom, right - left):
             self._bounds(self._rows, top, bottom - 1)
             self.window_top, self.window_bottom, self.row = top, bottom, top
 

@@ -200,8 +200,12 @@ class Windows:
 
     @cython.cfunc
     def _commands(self, i: cython.int) -> cython.int:
+        """How many commands a box needs."""
         box: cython.int[:, ::1] = self.boxes
-        return self.writer.window_commands(box[i, 0], box[i, 1], box[i, 2], box[i, 3])
+        w: Writer = self.writer
+        columns: cython.bint = w.columns_hold(box[i, 0], box[i, 1], box[i, 3] - box[i, 2])
+        rows: cython.bint = w.rows_hold(box[i, 2], box[i, 3], box[i, 1] - box[i, 0])
+        return 2 - columns - rows
 
     @cython.cfunc
     def _write_one(self, i: cython.int, last: cython.bint) -> cython.void:
