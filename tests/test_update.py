@@ -243,7 +243,7 @@ def test_the_page_pointers_plan_is_the_cheapest_there_is(update):
 
 
 @settings(max_examples=50)
-@given(small_updates(), st.builds(Cost, st.integers(1, 5), st.integers(1, 5), st.none()))
+@given(small_updates(), st.builds(Cost, st.integers(0, 5), st.integers(0, 5), st.none(), st.none()))
 def test_on_other_wires_too(update, cost):
     _assert_cheapest(update, cost)
 

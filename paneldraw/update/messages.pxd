@@ -28,6 +28,7 @@ cdef class Writer:
     cdef int mode_length(self, int mode) noexcept
     cdef bint columns_hold(self, int left, int right, int rows) noexcept
     cdef bint rows_hold(self, int top, int bottom, int columns) noexcept
+    cdef int data_price(self, int bounds) noexcept
     cdef void window(self, int left, int right, int top, int bottom)
     cdef void set_mode(self, int mode)
     cdef void _command(self, unsigned char[::1] command)

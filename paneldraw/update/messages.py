@@ -194,6 +194,24 @@ class Writer:
         return self.window_top == top and self.window_bottom == bottom
 
     @cython.cfunc
+    @cython.exceptval(check=False)
+    def data_price(self, bounds: cython.int) -> cython.int:
+        """Bytes from here to the first cell after so many of a window's two commands."""
+        price: cython.int = 0
+        commanding: cython.bint = self._kind == _COMMAND
+        if bounds == 0 and self._filling:
+            return 0
+        if self._arguments == _DATA:
+            price = bounds * (self.command_cost + 3 + self.data_cost)
+            commanding = False
+        elif bounds > 0:
+            price = 3 * bounds + (0 if commanding else self.command_cost)
+            commanding = True
+        if self._write[0, 0] > 0:
+            price += self._write[0, 0] + (0 if commanding else self.command_cost)
+        return price + self.data_cost
+
+    @cython.cfunc
     def window(self, left: cython.int, right: cython.int, top: cython.int, bottom: cython.int) -> cython.void:
         """Bring the pointer to the start of a box, in a mode of windows, with what does not hold."""
         if not self.columns_hold(left, right, bottom - top):

@@ -6,6 +6,8 @@ cdef class Windows:
     cdef int _window_cost
 
     cdef int stream(self, int count)
+    cdef bint _inside(self, int left, int right, int top, int bottom) noexcept
+    cdef int _reach(self, int left, int top, int right, int bottom) noexcept
     cdef int bounding(self, int count)
     cdef int grown(self, int count)
     cdef int _partner(self, int new, int boxes)
@@ -17,6 +19,9 @@ cdef class Windows:
     cdef int stream_cost(self, int stream)
     cdef int cost(self, int count)
     cdef void write(self, int count)
+    cdef int _reach_of(self, int i, int cells)
+    cdef int _price(self, int i)
+    cdef int _area(self, int i) noexcept
     cdef int _commands(self, int i)
     cdef void _write_one(self, int i, bint last)
     cdef int _idle_tail(self, int i, int mode)

@@ -35,34 +35,50 @@ class Windows:
         self.pieces = pieces
         self.boxes = np.zeros((MOST + 1, 4), np.intc)
         # What one more window costs, as a rule: its commands and the framing of two messages.
-        self._window_cost = writer.command_cost + 6 + writer.data_cost
+        self._window_cost = writer.data_price(2)
 
     @cython.cfunc
     def stream(self, count: cython.int) -> cython.int:
         """Cells from where the pointer stands in the open window to the last of the pieces; 0 if that is no way."""
-        w: Writer = self.writer
-        if not w.windowed() or w.column < 0 or w.window_right < 0:
-            return 0
-        right: cython.int = 1 if w.mode == _HORIZONTAL else w.window_bottom - w.window_top
-        down: cython.int = 1 if w.mode == _VERTICAL else w.window_right - w.window_left
-        area: cython.int = (w.window_right - w.window_left) * (w.window_bottom - w.window_top)
         farthest: cython.int = 0
-        first: cython.int
-        last: cython.int
         i: cython.int
         for i in range(count):
-            if not (
-                w.window_top <= self.pieces[i, 0] < w.window_bottom
-                and w.window_left <= self.pieces[i, 1]
-                and self.pieces[i, 2] <= w.window_right
-            ):
+            if not self._inside(self.pieces[i, 1], self.pieces[i, 2], self.pieces[i, 0], self.pieces[i, 0] + 1):
                 return 0
-            first = (self.pieces[i, 0] - w.row) * down + (self.pieces[i, 1] - w.column) * right
-            last = first + (self.pieces[i, 2] - 1 - self.pieces[i, 1]) * right + 1
-            if first < 0 < last:
-                return area
-            farthest = max(farthest, last if first >= 0 else last + area)
+            farthest = max(
+                farthest, self._reach(self.pieces[i, 1], self.pieces[i, 0], self.pieces[i, 2] - 1, self.pieces[i, 0])
+            )
         return farthest
+
+    @cython.cfunc
+    @cython.exceptval(check=False)
+    def _inside(self, left: cython.int, right: cython.int, top: cython.int, bottom: cython.int) -> cython.bint:
+        """Whether the pointer stands in an open window that holds a box."""
+        w: Writer = self.writer
+        return (
+            w.windowed()
+            and w.row >= 0
+            and w.column >= 0
+            and 0 <= w.window_left <= left
+            and right <= w.window_right
+            and 0 <= w.window_top <= top
+            and bottom <= w.window_bottom
+        )
+
+    @cython.cfunc
+    @cython.exceptval(check=False)
+    def _reach(self, left: cython.int, top: cython.int, right: cython.int, bottom: cython.int) -> cython.int:
+        """Cells from where the pointer stands in the open window by way of one cell to a later one."""
+        w: Writer = self.writer
+        wide: cython.int = w.window_right - w.window_left
+        high: cython.int = w.window_bottom - w.window_top
+        along: cython.int = 1 if w.mode == _HORIZONTAL else high
+        down: cython.int = wide if w.mode == _HORIZONTAL else 1
+        first: cython.int = (top - w.row) * down + (left - w.column) * along
+        last: cython.int = (bottom - w.row) * down + (right - w.column) * along + 1
+        if first < 0 < last:
+            return wide * high
+        return last if first >= 0 else last + wide * high
 
     # -- Which boxes
 
@@ -185,22 +201,42 @@ class Windows:
 
     @cython.cfunc
     def write(self, count: cython.int) -> cython.void:
-        """Write the first boxes, always the one next that needs the fewest commands."""
+        """Write the first boxes, always the one next that costs least beyond its own cells."""
         done: cython.int
         i: cython.int
+        price: cython.int
         best: cython.int
+        least: cython.int
         for done in range(count):
-            best = done
-            for i in range(done + 1, count):
-                if self._commands(i) < self._commands(best):
-                    best = i
+            best, least = done, _FAR
+            for i in range(done, count):
+                price = self._price(i)
+                if price < least:
+                    best, least = i, price
             self._swap(done, best)
             self._write_one(done, done == count - 1)
         self.writer.finish()
 
     @cython.cfunc
+    def _price(self, i: cython.int) -> cython.int:
+        """Bytes that a box costs beyond its own cells: on the way to it, or for its commands."""
+        box: cython.int[:, ::1] = self.boxes
+        w: Writer = self.writer
+        addressed: cython.int = w.data_price(self._commands(i))
+        if not self._inside(box[i, 0], box[i, 1], box[i, 2], box[i, 3]):
+            return addressed
+        reach: cython.int = self._reach(box[i, 0], box[i, 2], box[i, 1] - 1, box[i, 3] - 1)
+        return min(addressed, w.data_price(0) + w.cell_bytes * (reach - self._area(i)))
+
+    @cython.cfunc
+    @cython.inline
+    @cython.exceptval(check=False)
+    def _area(self, i: cython.int) -> cython.int:
+        return (self.boxes[i, 1] - self.boxes[i, 0]) * (self.boxes[i, 3] - self.boxes[i, 2])
+
+    @cython.cfunc
     def _commands(self, i: cython.int) -> cython.int:
-        """How many commands a box needs."""
+        """How many of a window's commands a box needs."""
         box: cython.int[:, ::1] = self.boxes
         w: Writer = self.writer
         columns: cython.bint = w.columns_hold(box[i, 0], box[i, 1], box[i, 3] - box[i, 2])
@@ -209,15 +245,32 @@ class Windows:
 
     @cython.cfunc
     def _write_one(self, i: cython.int, last: cython.bint) -> cython.void:
-        """Write a box; the last one only as far as something changed."""
+        """Write a box, on the way through the open window or as a window; the last only as far as something changed."""
         box: cython.int[:, ::1] = self.boxes
         w: Writer = self.writer
         if not w.windowed():
             downward: cython.bint = self._idle_tail(i, _VERTICAL) > self._idle_tail(i, _HORIZONTAL)
             w.set_mode(_VERTICAL if downward else _HORIZONTAL)
+        cells: cython.int = self._area(i) - (self._idle_tail(i, w.mode) if last else 0)
+        addressed: cython.int = w.data_price(self._commands(i)) + w.cell_bytes * cells
+        if self._inside(box[i, 0], box[i, 1], box[i, 2], box[i, 3]):
+            reach: cython.int = self._reach_of(i, cells)
+            if w.data_price(0) + w.cell_bytes * reach < addressed:
+                w.cells(reach)
+                return
         w.window(box[i, 0], box[i, 1], box[i, 2], box[i, 3])
-        area: cython.int = (box[i, 1] - box[i, 0]) * (box[i, 3] - box[i, 2])
-        w.cells(area - self._idle_tail(i, w.mode) if last else area)
+        w.cells(cells)
+
+    @cython.cfunc
+    def _reach_of(self, i: cython.int, cells: cython.int) -> cython.int:
+        """Cells from where the pointer stands to so many of a box."""
+        box: cython.int[:, ::1] = self.boxes
+        wide: cython.int = box[i, 1] - box[i, 0]
+        high: cython.int = box[i, 3] - box[i, 2]
+        last: cython.int = cells - 1
+        if self.writer.mode == _HORIZONTAL:
+            return self._reach(box[i, 0], box[i, 2], box[i, 0] + last % wide, box[i, 2] + last // wide)
+        return self._reach(box[i, 0], box[i, 2], box[i, 0] + last // high, box[i, 2] + last % high)
 
     @cython.cfunc
     def _idle_tail(self, i: cython.int, mode: cython.int) -> cython.int:
