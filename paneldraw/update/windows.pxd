@@ -20,6 +20,7 @@ cdef class Windows:
     cdef int cost(self, int count)
     cdef void write(self, int count)
     cdef int _reach_of(self, int i, int cells)
+    cdef int _begin_early(self, int i)
     cdef int _price(self, int i)
     cdef int _area(self, int i) noexcept
     cdef int _commands(self, int i)

@@ -222,11 +222,37 @@ class Windows:
         """Bytes that a box costs beyond its own cells: on the way to it, or for its commands."""
         box: cython.int[:, ::1] = self.boxes
         w: Writer = self.writer
-        addressed: cython.int = w.data_price(self._commands(i))
-        if not self._inside(box[i, 0], box[i, 1], box[i, 2], box[i, 3]):
-            return addressed
-        reach: cython.int = self._reach(box[i, 0], box[i, 2], box[i, 1] - 1, box[i, 3] - 1)
-        return min(addressed, w.data_price(0) + w.cell_bytes * (reach - self._area(i)))
+        left: cython.int = box[i, 0]
+        top: cython.int = box[i, 2]
+        own: cython.int = w.cell_bytes * self._area(i)
+        least: cython.int = self._begin_early(i) - own
+        box[i, 0], box[i, 2] = left, top
+        if self._inside(left, box[i, 1], top, box[i, 3]):
+            least = min(least, w.data_price(0) + w.cell_bytes * self._reach_of(i, self._area(i)) - own)
+        return least
+
+    @cython.cfunc
+    def _begin_early(self, i: cython.int) -> cython.int:
+        """Let a box begin where the pointer stands if that is cheaper than to move it; return the box's bytes."""
+        box: cython.int[:, ::1] = self.boxes
+        w: Writer = self.writer
+        left: cython.int = box[i, 0]
+        top: cython.int = box[i, 2]
+        best_left: cython.int = left
+        best_top: cython.int = top
+        cost: cython.int
+        least: cython.int = w.data_price(self._commands(i)) + w.cell_bytes * self._area(i)
+        early: cython.int
+        for early in range(1, 4 if w.windowed() else 1):
+            if (early & 1 and not 0 <= w.column < left) or (early & 2 and not 0 <= w.row < top):
+                continue
+            box[i, 0] = w.column if early & 1 else left
+            box[i, 2] = w.row if early & 2 else top
+            cost = w.data_price(self._commands(i)) + w.cell_bytes * self._area(i)
+            if cost < least:
+                least, best_left, best_top = cost, box[i, 0], box[i, 2]
+        box[i, 0], box[i, 2] = best_left, best_top
+        return least
 
     @cython.cfunc
     @cython.inline
@@ -251,15 +277,16 @@ class Windows:
         if not w.windowed():
             downward: cython.bint = self._idle_tail(i, _VERTICAL) > self._idle_tail(i, _HORIZONTAL)
             w.set_mode(_VERTICAL if downward else _HORIZONTAL)
-        cells: cython.int = self._area(i) - (self._idle_tail(i, w.mode) if last else 0)
-        addressed: cython.int = w.data_price(self._commands(i)) + w.cell_bytes * cells
+        idle: cython.int = self._idle_tail(i, w.mode) if last else 0
+        through: cython.int = 0
         if self._inside(box[i, 0], box[i, 1], box[i, 2], box[i, 3]):
-            reach: cython.int = self._reach_of(i, cells)
-            if w.data_price(0) + w.cell_bytes * reach < addressed:
-                w.cells(reach)
-                return
+            through = self._reach_of(i, self._area(i) - idle)
+        addressed: cython.int = self._begin_early(i) - w.cell_bytes * idle
+        if through > 0 and w.data_price(0) + w.cell_bytes * through < addressed:
+            w.cells(through)
+            return
         w.window(box[i, 0], box[i, 1], box[i, 2], box[i, 3])
-        w.cells(cells)
+        w.cells(self._area(i) - idle)
 
     @cython.cfunc
     def _reach_of(self, i: cython.int, cells: cython.int) -> cython.int:
