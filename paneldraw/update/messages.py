@@ -62,7 +62,7 @@ class Writer:
         self.chained_cost = -1 if chained is None else chained
         self._longest = _ENDLESS if cost.longest is None else cost.longest
         self._out, self._starts, self._stops = plan.buffer, plan.starts, plan.stops
-        self._noted = np.zeros(7, np.intc)
+        self._noted = np.zeros(8, np.intc)
         self._dry, self._kind, self._length, self._filling = False, -1, 0, False
         self.begin()
         self.forget()
@@ -97,22 +97,23 @@ class Writer:
 
     @cython.cfunc
     def rehearse(self) -> cython.void:
-        """Only count, until `rehearsed`. No message has been written yet."""
+        """Only count, until `rehearsed`. No message is open."""
         self._dry = True
         self._noted[0], self._noted[1], self._noted[2] = self.mode, self.row, self.column
         self._noted[3], self._noted[4] = self.window_left, self.window_right
         self._noted[5], self._noted[6] = self.window_top, self.window_bottom
+        self._noted[7] = self.total
 
     @cython.cfunc
     def rehearsed(self) -> cython.int:
         """Return the bytes counted; everything else is as it was before."""
         self.finish()
-        total: cython.int = self.total
-        self._dry, self.total = False, 0
+        counted: cython.int = self.total - self._noted[7]
+        self._dry, self.total = False, self._noted[7]
         self.mode, self.row, self.column = self._noted[0], self._noted[1], self._noted[2]
         self.window_left, self.window_right = self._noted[3], self._noted[4]
         self.window_top, self.window_bottom = self._noted[5], self._noted[6]
-        return total
+        return counted
 
     # -- Where data goes
 

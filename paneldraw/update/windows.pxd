@@ -2,7 +2,7 @@ from paneldraw.update.messages cimport Writer
 
 cdef class Windows:
     cdef Writer writer
-    cdef int[:, ::1] pieces, boxes
+    cdef int[:, ::1] pieces, boxes, _kept
     cdef int _window_cost
 
     cdef int stream(self, int count)
@@ -19,6 +19,9 @@ cdef class Windows:
     cdef int stream_cost(self, int stream)
     cdef int cost(self, int count)
     cdef void write(self, int count)
+    cdef int _rehearsed(self, int count, bint turned)
+    cdef void _copy(self, int[:, ::1] source, int[:, ::1] target, int count)
+    cdef void _write(self, int count, bint turned)
     cdef int _reach_of(self, int i, int cells)
     cdef int _begin_early(self, int i)
     cdef int _price(self, int i)

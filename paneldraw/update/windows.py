@@ -19,10 +19,16 @@ else:
 
 MOST = 64
 """So many boxes are grown; what would be one more joins another."""
+WORTHWHILE = 24
+"""More boxes than that are not tried where there is a page pointer."""
+TURNED = 4
+"""For up to so many boxes both modes of windows are tried."""
 
 _MOST = cython.declare(cython.int, MOST)
 _HORIZONTAL = cython.declare(cython.int, HORIZONTAL)
 _VERTICAL = cython.declare(cython.int, VERTICAL)
+_WORTHWHILE = cython.declare(cython.int, WORTHWHILE)
+_TURNED = cython.declare(cython.int, TURNED)
 _FAR = cython.declare(cython.int, 1 << 24)
 
 
@@ -34,6 +40,7 @@ class Windows:
         self.writer = writer
         self.pieces = pieces
         self.boxes = np.zeros((MOST + 1, 4), np.intc)
+        self._kept = np.zeros_like(self.boxes)
         # What one more window costs, as a rule: its commands and the framing of two messages.
         self._window_cost = writer.data_price(2)
 
@@ -96,7 +103,7 @@ class Windows:
 
     @cython.cfunc
     def grown(self, count: cython.int) -> cython.int:
-        """Grow boxes from the pieces, one after the other; return how many."""
+        """Grow boxes from the pieces, one after the other; return how many, or 0 if they are too many to pay."""
         box: cython.int[:, ::1] = self.boxes
         piece: cython.int
         new: cython.int
@@ -107,6 +114,8 @@ class Windows:
             box[boxes, 2], box[boxes, 3] = self.pieces[piece, 0], self.pieces[piece, 0] + 1
             new = boxes
             boxes += 1
+            if boxes > _WORTHWHILE and self.writer.has_pointer:
+                return 0
             other = self._partner(new, boxes)
             while other >= 0:
                 self._join(other, new)
@@ -195,27 +204,54 @@ class Windows:
     @cython.cfunc
     def cost(self, count: cython.int) -> cython.int:
         """Bytes that writing the first boxes takes."""
-        self.writer.rehearse()
-        self.write(count)
-        return self.writer.rehearsed()
+        return min(self._rehearsed(count, False), self._rehearsed(count, True))
 
     @cython.cfunc
     def write(self, count: cython.int) -> cython.void:
+        """Write the first boxes, in the other mode of windows if that pays."""
+        turned: cython.int = self._rehearsed(count, True)
+        self._write(count, turned < _FAR and turned < self._rehearsed(count, False))
+
+    @cython.cfunc
+    def _rehearsed(self, count: cython.int, turned: cython.bint) -> cython.int:
+        """Bytes that writing the first boxes takes in the mode that is set or, turned, in the other one."""
+        w: Writer = self.writer
+        if turned and (count > _TURNED or not w.windowed()):
+            return _FAR
+        self._copy(self.boxes, self._kept, count)
+        w.rehearse()
+        self._write(count, turned)
+        self._copy(self._kept, self.boxes, count)
+        return w.rehearsed()
+
+    @cython.cfunc
+    def _copy(self, source: cython.int[:, ::1], target: cython.int[:, ::1], count: cython.int) -> cython.void:
+        i: cython.int
+        side: cython.int
+        for i in range(count):
+            for side in range(4):
+                target[i, side] = source[i, side]
+
+    @cython.cfunc
+    def _write(self, count: cython.int, turned: cython.bint) -> cython.void:
         """Write the first boxes, always the one next that costs least beyond its own cells."""
+        w: Writer = self.writer
         done: cython.int
         i: cython.int
         price: cython.int
         best: cython.int
         least: cython.int
+        if turned:
+            w.set_mode(_HORIZONTAL if w.mode == _VERTICAL else _VERTICAL)
         for done in range(count):
             best, least = done, _FAR
-            for i in range(done, count):
+            for i in range(done, count if done < count - 1 else done):
                 price = self._price(i)
                 if price < least:
                     best, least = i, price
             self._swap(done, best)
             self._write_one(done, done == count - 1)
-        self.writer.finish()
+        w.finish()
 
     @cython.cfunc
     def _price(self, i: cython.int) -> cython.int:
