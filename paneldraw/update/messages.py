@@ -14,6 +14,9 @@ import numpy as np
 
 from paneldraw.transports.base import CHAINED, COMMAND, DATA
 
+if cython.compiled:
+    from cython.cimports.libc.string import memcpy
+
 if TYPE_CHECKING:
     import numpy.typing as npt
 
@@ -271,13 +274,15 @@ class Writer:
         first: cython.int = self.cell_bytes * (self.column - self.left)
         todo: cython.int = self.cell_bytes * count
         fitting: cython.int
-        i: cython.int
+        row: cython.int = self.row - self.top
         while todo > 0:
             self._make_room()
             fitting = min(todo, self._longest - self._length)
             if not self._dry:
-                for i in range(fitting):
-                    self._out[self._end + i] = self.new[self.row - self.top, first + i]
+                if cython.compiled:
+                    memcpy(cython.address(self._out[self._end]), cython.address(self.new[row, first]), fitting)
+                else:
+                    self._out[self._end : self._end + fitting] = self.new[row, first : first + fitting]
                 self._end += fitting
             self._length += fitting
             self.total += fitting

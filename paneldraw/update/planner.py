@@ -146,48 +146,36 @@ class Planner:
     def _find_pieces(self) -> cython.int:
         """Find the pieces, apart where the pointer stands; return how many bytes changed."""
         w: Writer = self._writer
+        new: cython.uchar[:, ::1] = w.new
+        old: cython.uchar[:, ::1] = w.old
+        known: cython.bint = w.known
+        size: cython.int = w.cell_bytes
         row: cython.int
         column: cython.int
         pointer: cython.int
         start: cython.int
         differ: cython.int
+        i: cython.int
         changed: cython.int = 0
         self._count = 0
         for row in range(w.height):
-            if w.known and self._same(row):
+            if known and self._same(row):
                 continue
             pointer = w.column - w.left if row + w.top == w.row else -1
             start = -1
             for column in range(w.width):
-                differ = self._different(row, column)
-                if differ == 0:
-                    if start >= 0:
-                        self._add_piece(row, start, column)
-                    start = -1
-                    continue
+                differ = 0
+                for i in range(size * column, size * (column + 1)):
+                    differ += not known or new[row, i] != old[row, i]
                 changed += differ
-                if start < 0:
+                if differ > 0 and start < 0:
                     start = column
-                elif column == pointer:
+                elif start >= 0 and (differ == 0 or column == pointer):
                     self._add_piece(row, start, column)
-                    start = column
+                    start = column if differ > 0 else -1
             if start >= 0:
                 self._add_piece(row, start, w.width)
         return changed
-
-    @cython.cfunc
-    @cython.inline
-    @cython.exceptval(check=False)
-    def _different(self, row: cython.Py_ssize_t, column: cython.Py_ssize_t) -> cython.int:
-        """How many bytes of a cell changed."""
-        w: Writer = self._writer
-        if not w.known:
-            return w.cell_bytes
-        i: cython.Py_ssize_t
-        count: cython.int = 0
-        for i in range(column * w.cell_bytes, (column + 1) * w.cell_bytes):
-            count += w.new[row, i] != w.old[row, i]
-        return count
 
     @cython.cfunc
     def _add_piece(self, row: cython.int, start: cython.int, stop: cython.int) -> cython.void:
