@@ -122,7 +122,7 @@ class I2CTransport:
             done = self._rdwr(*messages)
         except OSError as error:
             raise self._translated(error) from error
-        if done is not None and 0 < done < len(messages):
+        if done is not None and done < len(messages):
             raise TransportError(errno.EIO, f"only {done} of {len(messages)} messages reached {self._where()}")
         self._answered = True
 
