@@ -49,6 +49,13 @@ class Report(NamedTuple):
         return self.messages == 0
 
 
+class Sent(NamedTuple):
+    """What some commands took."""
+
+    wire_bytes: int
+    messages: int
+
+
 @dataclass(slots=True)
 class Stats:
     """Sums over all `Report`s of a panel, and what went wrong on the way."""
@@ -324,22 +331,22 @@ class Panel:
                 time.sleep(_PAUSE * 2**attempt)
         return operation()
 
-    def _start(self) -> int:
-        """Bring the chip from any state to a dark, configured one; return bytes on the wire."""
+    def _start(self) -> Sent:
+        """Bring the chip from any state to a dark, configured one."""
         chip = self.controller
-        settings = chip.inverse if self._inverted else b""
+        commands = [*chip.init, *([chip.inverse] if self._inverted else ())]
         if self._contrast is not None:
-            settings += self._contrast_command()
+            commands.append(self._contrast_command())
         self._lit = False
-        wire = self._command(chip.resync + chip.init + settings)
+        sent = self._command(*([chip.resync] if chip.resync else ()), *commands)
         self._planner.restart()
-        return wire
+        return sent
 
     def _send(self) -> tuple[int, int, int]:
         """Send the planner's fresh frame; return bytes on the wire, messages, changed bytes."""
         wire = messages = 0
         if not self._ready:
-            wire, messages = self._start(), 1
+            wire, messages = self._start()
         self._ready = False  # the planner counts a plan as sent
         plan = self._planner.plan()
         if plan.count:
@@ -348,16 +355,25 @@ class Panel:
             self._shown = True
         self._ready = True
         if not (self._lit or self._asleep):
-            wire += self._command(self.controller.power_on)
-            messages += 1
+            power_on = self._command(self.controller.power_on)
+            wire, messages = wire + power_on.wire_bytes, messages + power_on.messages
             self._lit = True
         return wire, messages + plan.count, plan.changed
 
-    def _command(self, payload: bytes) -> int:
+    def _command(self, *commands: bytes) -> Sent:
+        """Send commands, each with its arguments."""
+        wire = messages = 0
         self._ready = False
-        wire = self.transport.command(payload)
+        if self.controller.arguments_are_data:
+            for command in commands:
+                wire += self.transport.command(command[:1])
+                if len(command) > 1:
+                    wire += self.transport.data(command[1:])
+                messages += 1 + (len(command) > 1)
+        else:
+            wire, messages = self.transport.command(b"".join(commands)), 1
         self._ready = True
-        return wire
+        return Sent(wire, messages)
 
     def _change(self, payload: bytes) -> None:
         """Send a setting, after the picture where the panel may have lost it."""

@@ -30,7 +30,7 @@ class Glass:
 
     def start(self):
         """Bring the chip to where the planner believes it to be, and light it."""
-        self.chip.write(b"\x00" + self.controller.init + self.controller.power_on)
+        self.chip.write(b"\x00" + b"".join(self.controller.init) + self.controller.power_on)
 
     def send(self, frame):
         """Bring a frame onto the chip; return the plan's messages as (kind, payload)."""
@@ -249,7 +249,7 @@ def small_updates(draw):
         name="small",
         width=width,
         height=8 * pages,
-        init=b"",
+        init=(),
         ram_width=left + width + beyond,
         ram_height=8 * pages,
         column_offset=left,

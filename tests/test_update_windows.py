@@ -22,7 +22,6 @@ FOURS = Window(
     across=b"\xa0\x06\x11",
     down=b"\xa0\x07\x11",
     column_bytes=2,
-    arguments_are_data=True,
     write=b"\x5c",
 )
 """Four pixels a column, arguments with D/C high and a command before data, as of an SSD1322."""
@@ -34,13 +33,14 @@ def controller(width, height, window, left=0, beyond=0):
         name="small",
         width=wide * width,
         height=height,
-        init=b"",
+        init=(),
         ram_width=wide * (left + width + beyond),
         ram_height=height,
         column_offset=wide * left,
         packing="nibbles",
         pointer=None,
         window=window,
+        arguments_are_data=bool(window.write),
     )
 
 
@@ -98,8 +98,9 @@ def test_every_frame_arrives_and_is_counted_to_the_byte(package, walk):
         panel.send()
 
 
-def bounding(window, cost, cells, state):
+def bounding(small, cost, cells, state):
     """Bytes of one window around some cells: the commands that do not hold, and data up to the last of them."""
+    window = small.window
     rows, columns = zip(*cells, strict=True)
     box = (min(columns), max(columns)), (min(rows), max(rows))
     commands = (state.columns != box[0] or state.column != box[0][0]) + (state.rows != box[1] or state.row != box[1][0])
@@ -109,7 +110,7 @@ def bounding(window, cost, cells, state):
     else:
         last = max(wide * (row - box[1][0]) + column - box[0][0] for row, column in cells)
     data = cost.data + window.column_bytes * (last + 1)
-    if window.arguments_are_data:
+    if small.arguments_are_data:
         return commands * (cost.command + 3 + cost.data) + cost.command + len(window.write) + data
     return (cost.command + 3 * commands if commands else 0) + data
 
@@ -122,7 +123,7 @@ def test_between_the_cheapest_there_is_and_one_bounding_window(walk):
     for cells in steps:
         state = panel.ram.state
         wanted = panel.change(cells)
-        assert cheapest(small, cost, wanted, state) <= panel.cost() <= bounding(small.window, cost, wanted, state)
+        assert cheapest(small, cost, wanted, state) <= panel.cost() <= bounding(small, cost, wanted, state)
 
 
 @pytest.mark.parametrize(("window", "size"), [(PAIRS, 11), (FOURS, 21)])

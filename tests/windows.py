@@ -44,27 +44,30 @@ class Ram:
 
     def __init__(self, controller):
         wide, high = controller.cell
-        self.window = controller.window
+        self.window, self.arguments_are_data = controller.window, controller.arguments_are_data
         self.bytes = np.zeros((controller.ram_height // high, controller.ram_width // wide * self.window.column_bytes))
         self.state = State(False, None, None, None, None)
         self._command, self._cell = b"", []
         self._writing = False
 
     def take(self, kind, payload):
+        """Take a message. Where arguments go as data, a command byte always begins a command."""
         for byte in payload:
-            waiting = self._command and len(self._command) < self._length(self._command[0])
-            if kind == DATA and not (self.window.arguments_are_data and waiting):
-                assert not waiting
+            if kind == DATA and not self.arguments_are_data:
+                assert not self._waiting()
                 self._data(byte)
+            elif kind == DATA and self._writing:
+                self._data(byte)
+            elif kind == DATA or (not self.arguments_are_data and self._waiting()):
+                self._obey(self._command + bytes((byte,)))
             else:
-                assert (kind == DATA) == (bool(waiting) and self.window.arguments_are_data)
-                self._obey(self._command + bytes((byte,)) if waiting else bytes((byte,)))
+                self._obey(bytes((byte,)))
 
-    def _length(self, command):
-        return 3 if command in (self.window.columns, self.window.rows) else len(self._mode(command))
-
-    def _mode(self, command):
-        return self.window.across if command == self.window.across[0] else self.window.write
+    def _waiting(self):
+        """Whether the last command, of a chip that has no others than these, waits for arguments."""
+        window = self.window
+        lengths = {window.columns: 3, window.rows: 3, window.across[0]: len(window.across)}
+        return bool(self._command) and len(self._command) < lengths[self._command[0]]
 
     def _obey(self, command):
         window = self.window
@@ -108,7 +111,7 @@ def cheapest(controller, cost, cells, state):
             continue
         for price, following in [
             *_data(window, cost, (todo, state, message)),
-            *_commands(window, cost, (todo, state, message), columns, rows),
+            *_commands(controller, cost, (todo, state, message), columns, rows),
         ]:
             if paid + price < costs.get(following, 1 << 30):
                 costs[following] = paid + price
@@ -128,12 +131,12 @@ def _data(window, cost, node):
     yield price, (todo - {(state.row, state.column)}, state.stepped(), "cells")
 
 
-def _commands(window, cost, node, columns, rows):
+def _commands(controller, cost, node, columns, rows):
     todo, state, message = node
 
     def price(length):
         opening = 0 if message == "command" else cost.command
-        if not window.arguments_are_data:
+        if not controller.arguments_are_data:
             return opening + length, "command"
         return opening + length + cost.data, "argument"
 
@@ -142,5 +145,5 @@ def _commands(window, cost, node, columns, rows):
         yield bounds, (todo, state._replace(columns=(first, last), column=first), after)
     for first, last in itertools.combinations_with_replacement(rows, 2):
         yield bounds, (todo, state._replace(rows=(first, last), row=first), after)
-    mode, after = price(len(window.across))
+    mode, after = price(len(controller.window.across))
     yield mode, (todo, state._replace(down=not state.down, column=None, row=None), after)

@@ -10,6 +10,17 @@ PACKINGS: Final = {"pages": (1, 8), "nibbles": (2, 1)}
 _DEPTHS: Final = {"pages": 1, "nibbles": 4}
 
 
+def commands(text: str) -> tuple[bytes, ...]:
+    """Read commands, each with its arguments, in hex and with commas in between.
+
+    Examples
+    --------
+    >>> commands("AE, D5 80")
+    (b'\\xae', b'\\xd5\\x80')
+    """
+    return tuple(map(bytes.fromhex, text.split(",")))
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PagePointer:
     """One way to say where data goes: ``B0+p 00+lo 10+hi``, of which each can be sent alone.
@@ -20,6 +31,11 @@ class PagePointer:
         Command that selects this way; empty where the chip has no other. Default: empty.
     wraps : bool
         Whether the column pointer returns from the last RAM column to the first. Default: False.
+
+    Examples
+    --------
+    >>> PagePointer(mode=bytes((0x20, 2)), wraps=True).wraps
+    True
     """
 
     mode: bytes = b""
@@ -41,10 +57,13 @@ class Window:
         Commands that select this way, filled row by row and column by column.
     column_bytes : int
         Bytes that share a column address. Default: 1.
-    arguments_are_data : bool
-        Whether the arguments of commands go as data. Default: False.
     write : bytes
         Command between any other and data. Default: none.
+
+    Examples
+    --------
+    >>> Window(columns=0x21, rows=0x22, across=bytes((0x20, 0)), down=bytes((0x20, 1))).column_bytes
+    1
     """
 
     columns: int
@@ -52,7 +71,6 @@ class Window:
     across: bytes
     down: bytes
     column_bytes: int = 1
-    arguments_are_data: bool = False
     write: bytes = b""
 
 
@@ -69,9 +87,9 @@ class Controller:
         The chip, in lower case.
     width, height : int
         Visible pixels.
-    init : bytes
-        Commands that bring the chip from any state to a dark, configured one, in the mode of the page pointer if it
-        has one, else with windows filled across.
+    init : tuple of bytes
+        Commands, each with its arguments, that bring the chip from any state to a dark, configured one, in the mode of
+        the page pointer if it has one, else with windows filled across.
     ram_width, ram_height : int
         Pixels that the chip's RAM holds.
     column_offset, row_offset : int
@@ -82,6 +100,8 @@ class Controller:
     pointer : PagePointer, optional
     window : Window, optional
         The ways to say where data goes; there is one or both. Default: the page pointer alone.
+    arguments_are_data : bool
+        Whether arguments of commands go as data, with D/C high, which rules I2C out. Default: False.
     chained_control : bool
         Whether the chip takes I2C control bytes with the continuation bit well, clones included. Default: False.
     resync : bytes
@@ -97,7 +117,7 @@ class Controller:
     name: str
     width: int
     height: int
-    init: bytes
+    init: tuple[bytes, ...]
     ram_width: int
     ram_height: int
     column_offset: int = 0
@@ -105,6 +125,7 @@ class Controller:
     packing: str = "pages"
     pointer: PagePointer | None = PagePointer()
     window: Window | None = None
+    arguments_are_data: bool = False
     chained_control: bool = False
     resync: bytes = b"\xe3" * 6
     power_on: bytes = b"\xaf"
@@ -127,6 +148,8 @@ class Controller:
             raise ValueError("pointer and window must not both be None: data must have a way")
         if self.pointer is not None and self.packing != "pages":
             raise ValueError(f"pointer must be None where packing is {self.packing!r}")
+        if self.arguments_are_data and (self.pointer is not None or not (self.window and self.window.write)):
+            raise ValueError("arguments_are_data must be False where no command of the window sets data apart")
         wide, high = self.cell
         if self.width % wide or self.column_offset % wide:
             raise ValueError(f"width {self.width} and column_offset {self.column_offset} must be multiples of {wide}")

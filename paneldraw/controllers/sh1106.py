@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from paneldraw.controllers.record import Controller, PagePointer
+from paneldraw.controllers.record import Controller, PagePointer, commands
 
 RAM_WIDTH, RAM_HEIGHT = 132, 64
 
@@ -45,8 +45,11 @@ def SH1106(  # noqa: N802 - reads as the chip that it makes
         name="sh1106",
         width=width,
         height=height,
-        init=bytes.fromhex("AE A4 D5 50 A8 3F D3 00 40 AD 8B D9 22 DB 35 32 81 FF A6 DA 12")
-        + bytes((0xA0 if mirror_x else 0xA1, 0xC0 if mirror_y else 0xC8)),
+        init=(
+            *commands("AE, A4, D5 50, A8 3F, D3 00, 40, AD 8B, D9 22, DB 35, 32, 81 FF, A6, DA 12"),
+            b"\xa0" if mirror_x else b"\xa1",
+            b"\xc0" if mirror_y else b"\xc8",
+        ),
         ram_width=RAM_WIDTH,
         ram_height=RAM_HEIGHT,
         column_offset=RAM_WIDTH - width - column_offset if mirror_x else column_offset,

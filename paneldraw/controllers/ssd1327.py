@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from paneldraw.controllers.record import Controller, Window
+from paneldraw.controllers.record import Controller, Window, commands
 
 RAM_WIDTH, RAM_HEIGHT = 128, 128
 _UPRIGHT, _MIRROR_X, _MIRROR_Y, _DOWN = 0x51, 0x03, 0x10, 0x04
@@ -54,8 +54,10 @@ def SSD1327(  # noqa: N802 - reads as the chip that it makes
         name="ssd1327",
         width=width,
         height=height,
-        init=bytes((0xFD, 0x12, 0xAE, 0xA8, height - 1, 0xA1, 0x00, 0xA2, offset, 0xA0, across))
-        + bytes.fromhex("AB 01 81 53 B1 51 B3 01 B9 BC 08 BE 07 B6 01 D5 62 A4"),
+        init=(
+            *commands(f"FD 12, AE, A8 {height - 1:02X}, A1 00, A2 {offset:02X}, A0 {across:02X}, AB 01, 81 53, B1 51"),
+            *commands("B3 01, B9, BC 08, BE 07, B6 01, D5 62, A4"),
+        ),
         ram_width=RAM_WIDTH,
         ram_height=RAM_HEIGHT,
         column_offset=glass.column_offset,

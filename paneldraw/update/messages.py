@@ -59,7 +59,7 @@ class Writer:
         )
         self._write = _side_by_side(window.write if window else b"")
         self._columns, self._rows = (window.columns, window.rows) if window else (0, 0)
-        self._arguments = DATA if window and window.arguments_are_data else COMMAND
+        self._arguments = DATA if controller.arguments_are_data else COMMAND
         self.command_cost, self.data_cost = cost.command, cost.data
         chained = cost.chained if controller.chained_control else None
         self.chained_cost = -1 if chained is None else chained
