@@ -34,6 +34,7 @@ cdef class Writer:
     cdef void _command(self, unsigned char[::1] command)
     cdef void _bounds(self, int command, int first, int last)
     cdef void cells(self, int count)
+    cdef void _pass(self, int count)
     cdef void _copy(self, int count)
     cdef void _step(self) noexcept
     cdef void _message(self, int kind)

@@ -258,6 +258,9 @@ class Writer:
             self._command(self._write[0])
         self._message(_DATA)
         self._filling = True
+        if self._dry and self.windowed():
+            self._pass(count)
+            return
         run: cython.int
         while count > 0:
             run = 1
@@ -267,6 +270,29 @@ class Writer:
             self.column += run - 1
             self._step()
             count -= run
+
+    @cython.cfunc
+    def _pass(self, count: cython.int) -> cython.void:
+        """Count cells, and move the pointer past them through the window."""
+        todo: cython.int = self.cell_bytes * count
+        fitting: cython.int
+        while todo > 0:
+            self._make_room()
+            fitting = min(todo, self._longest - self._length)
+            self._length += fitting
+            self.total += fitting
+            todo -= fitting
+        wide: cython.int = self.window_right - self.window_left
+        high: cython.int = self.window_bottom - self.window_top
+        column: cython.int = self.column - self.window_left
+        row: cython.int = self.row - self.window_top
+        place: cython.int = count + (row * wide + column if self.mode == _HORIZONTAL else column * high + row)
+        place %= wide * high
+        if self.mode == _HORIZONTAL:
+            row, column = place // wide, place % wide
+        else:
+            row, column = place % high, place // high
+        self.column, self.row = self.window_left + column, self.window_top + row
 
     @cython.cfunc
     def _copy(self, count: cython.int) -> cython.void:

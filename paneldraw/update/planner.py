@@ -146,16 +146,16 @@ class Planner:
     def _find_pieces(self) -> cython.int:
         """Find the pieces, apart where the pointer stands; return how many bytes changed."""
         w: Writer = self._writer
-        new: cython.uchar[:, ::1] = w.new
-        old: cython.uchar[:, ::1] = w.old
+        new: cython.uchar[::1]
+        old: cython.uchar[::1]
         known: cython.bint = w.known
-        size: cython.int = w.cell_bytes
+        size: cython.Py_ssize_t = w.cell_bytes
         row: cython.int
-        column: cython.int
+        column: cython.Py_ssize_t
         pointer: cython.int
         start: cython.int
         differ: cython.int
-        i: cython.int
+        i: cython.Py_ssize_t
         changed: cython.int = 0
         self._count = 0
         for row in range(w.height):
@@ -163,10 +163,11 @@ class Planner:
                 continue
             pointer = w.column - w.left if row + w.top == w.row else -1
             start = -1
+            new, old = w.new[row], w.old[row]
             for column in range(w.width):
-                differ = 0
-                for i in range(size * column, size * (column + 1)):
-                    differ += not known or new[row, i] != old[row, i]
+                differ = not known or new[size * column] != old[size * column]
+                for i in range(size * column + 1, size * (column + 1)):
+                    differ += not known or new[i] != old[i]
                 changed += differ
                 if differ > 0 and start < 0:
                     start = column

@@ -276,15 +276,17 @@ class Windows:
         top: cython.int = box[i, 2]
         best_left: cython.int = left
         best_top: cython.int = top
-        cost: cython.int
         least: cython.int = w.data_price(self._commands(i)) + w.cell_bytes * self._area(i)
+        cost: cython.int
         early: cython.int
         for early in range(1, 4 if w.windowed() else 1):
             if (early & 1 and not 0 <= w.column < left) or (early & 2 and not 0 <= w.row < top):
                 continue
             box[i, 0] = w.column if early & 1 else left
             box[i, 2] = w.row if early & 2 else top
-            cost = w.data_price(self._commands(i)) + w.cell_bytes * self._area(i)
+            cost = w.cell_bytes * self._area(i)
+            if cost < least:  # else no commands could be few enough
+                cost += w.data_price(self._commands(i))
             if cost < least:
                 least, best_left, best_top = cost, box[i, 0], box[i, 2]
         box[i, 0], box[i, 2] = best_left, best_top
