@@ -17,10 +17,12 @@ if cython.compiled:
 else:
     from paneldraw.update.messages import Writer
 
-MOST = 64
+MOST = 128
 """So many boxes are grown; what would be one more joins another."""
 WORTHWHILE = 24
 """More boxes than that are not tried where there is a page pointer."""
+AHEAD = 24
+"""So many boxes are looked at for the one to write next."""
 TURNED = 4
 """For up to so many boxes both modes of windows are tried."""
 
@@ -28,6 +30,7 @@ _MOST = cython.declare(cython.int, MOST)
 _HORIZONTAL = cython.declare(cython.int, HORIZONTAL)
 _VERTICAL = cython.declare(cython.int, VERTICAL)
 _WORTHWHILE = cython.declare(cython.int, WORTHWHILE)
+_AHEAD = cython.declare(cython.int, AHEAD)
 _TURNED = cython.declare(cython.int, TURNED)
 _FAR = cython.declare(cython.int, 1 << 24)
 
@@ -133,10 +136,12 @@ class Windows:
         best: cython.int = -1
         most: cython.int = 0 if boxes <= _MOST else -_FAR
         for i in range(boxes):
-            if i != new:
-                saved = self._saved(i, new)
-                if saved > most:
-                    best, most = i, saved
+            # Boxes come by rows: far above, none saves anything.
+            if i == new or (most >= 0 and self.boxes[new, 2] - self.boxes[i, 3] > self._window_cost):
+                continue
+            saved = self._saved(i, new)
+            if saved > most:
+                best, most = i, saved
         return best
 
     @cython.cfunc
@@ -245,7 +250,7 @@ class Windows:
             w.set_mode(_HORIZONTAL if w.mode == _VERTICAL else _VERTICAL)
         for done in range(count):
             best, least = done, _FAR
-            for i in range(done, count if done < count - 1 else done):
+            for i in range(done, min(count, done + _AHEAD) if done < count - 1 else done):
                 price = self._price(i)
                 if price < least:
                     best, least = i, price
