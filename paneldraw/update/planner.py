@@ -10,10 +10,16 @@ So every step has a length, and the cheapest plan is the shortest path through a
 `paths.EXACT` pieces. With more, pieces a byte apart are taken for one, and the path is the best found: no longer than
 page by page from left to right with every choice on the way the best one.
 
-**Windows.** Boxes are written in horizontal or vertical mode. Candidates are the bounding box; boxes grown from the
-pieces by joining those that are cheaper together; of these the ones taller than a page, with the page pointer for the
-rest; and, with no command at all, the open window onward from where its pointer stands. What holds is not sent again,
-and a window written to its end stands at its start.
+**Windows.** Boxes are written by windows that are filled across or down. Candidates are the bounding box; boxes grown
+from the pieces by joining those that are cheaper together; of these the ones taller than a row, with the page pointer
+for the rest; and, with no command at all, the open window onward from where its pointer stands. Boxes are written one
+after the other, next always the one of those at hand that costs least beyond its own cells:
+
+- Of its two commands only those go out that do not hold. A window written to its end stands at its start; and its
+  edges must be the box's only where data turns, elsewhere data need not reach them.
+- A box inside the open window may be reached through it, and one to the right of the pointer or below it may begin
+  where the pointer stands, where the cells in between are cheaper than a command.
+- The last box ends with its last changed cell. Up to `windows.TURNED` boxes are tried across and down.
 
 The plan is the cheapest of all these.
 """
@@ -28,6 +34,7 @@ import numpy as np
 from paneldraw.transports.base import Plan
 from paneldraw.update.messages import PAGE
 from paneldraw.update.paths import EXACT, IMPROVED
+from paneldraw.update.windows import MOST
 
 if cython.compiled:
     from cython.cimports.libc.string import memcmp
@@ -46,6 +53,7 @@ if TYPE_CHECKING:
 _EXACT = cython.declare(cython.int, EXACT)
 _IMPROVED = cython.declare(cython.int, IMPROVED)
 _PAGE = cython.declare(cython.int, PAGE)
+_MOST = cython.declare(cython.int, MOST)
 _FAR = cython.declare(cython.int, 1 << 24)
 _POINTER = cython.declare(cython.int, 0)
 _STREAM = cython.declare(cython.int, 1)
@@ -228,6 +236,8 @@ class Planner:
             if not w.has_window or not w.known or (self._count == 1 and w.mode == _PAGE):
                 self._write_path(self._order, self._count)
                 return
+        elif self._count > _MOST:
+            self._merge(self._jumps[0])
         stream: cython.int = windows.stream(self._count)
         if stream > 0:
             cost = windows.stream_cost(stream)
@@ -247,15 +257,17 @@ class Planner:
             cost = windows.cost(tall) + self._path_cost(self._rest, flat)
             if cost < best:
                 best, way = cost, _MIXED
-        if way == _POINTER:
-            self._write_path(self._order, self._count)
-        elif way == _STREAM:
+        if way == _STREAM:
             w.cells(stream)
             w.finish()
+        elif way == _BOUNDING:
+            windows.write(windows.bounding(self._count))
+        elif way == _GROWN:
+            windows.write(grown)
         elif way == _MIXED:
             self._write_mixed(tall, flat)
         else:
-            windows.write(grown if way == _GROWN else windows.bounding(self._count))
+            self._write_path(self._order, self._count)
 
     @cython.cfunc
     def _outside(self, boxes: cython.int) -> cython.int:
@@ -289,13 +301,13 @@ class Planner:
         return column - self._writer.ram_width if self._writer.wraps else -1
 
     @cython.cfunc
-    def _step(self, page: cython.int, column: cython.int, room: cython.int, piece: cython.int) -> cython.int:
+    def _step(self, row: cython.int, column: cython.int, room: cython.int, piece: cython.int) -> cython.int:
         """Bytes from a place to the start of a piece.
 
         `room` bytes may be sent first to drive the pointer further; -1 stands for the start of a plan.
         """
         w: Writer = self._writer
-        to_page: cython.int = self._pieces[piece, 0]
+        to_row: cython.int = self._pieces[piece, 0]
         to_column: cython.int = self._pieces[piece, 1]
         gap: cython.int = to_column - column
         best: cython.int = _FAR
@@ -303,7 +315,7 @@ class Planner:
         late: cython.int
         early: cython.int
         first: cython.int
-        if page == to_page and column >= w.left:
+        if row == to_row and column >= w.left:
             if gap < 0 and self._around:
                 gap += w.width
             if gap >= 0:
@@ -315,7 +327,7 @@ class Planner:
                     if not self._around:
                         break
                     first += w.width
-                cost = self._jumps[w.pointer_commands(page, self._after(column, late), to_page, first)] + late + early
+                cost = self._jumps[w.pointer_commands(row, self._after(column, late), to_row, first)] + late + early
                 if cost < best:
                     best, self._bridge, self._late, self._early = cost, -1, late, early
                     if cost <= self._jumps[1]:
