@@ -433,7 +433,8 @@ def open_panel(url: str | None = None) -> Panel:
         ``serial:///dev/ttyACM0?baudrate=1000000`` one behind a microcontroller, which says what it is; where a device's
         name stands, pyserial's ``socket://host:port``, ``rfc2217://host:port`` and the like may stand, without
         ``serial://`` too; ``sim://ssd1306?size=128x64`` a simulated one, whose chip is
-        ``panel.transport.bus.devices[0x3C]``. Parameters are ``chip`` (of i2c and serial), ``size``, ``rotate``,
+        ``panel.transport.bus.devices[0x3C]``. Parameters are ``chip`` (of i2c and serial; a key of
+        `paneldraw.controllers.CHIPS`, of which the SSD1322 is on SPI, so behind a board), ``size``, ``rotate``,
         ``on_close`` and ``baudrate`` (of serial). Default: what the environment variable PANELDRAW_PANEL says, else
         ``sim://ssd1306``.
 
