@@ -163,3 +163,13 @@ def test_a_diagonal_of_greys_costs_no_bounding_window(package):
     for row in range(128):
         planner.fresh[row, row // 2] = 0xF0
     assert planner.plan().cost < 800
+
+
+def test_windows_are_filled_down_where_that_pays_for_the_switch():
+    """A column and one cell beside its top: across, the cells beside it would go out too."""
+    panel = Panel(controller(8, 20, PAIRS))
+    panel.change({(row, 3) for row in range(20)} | {(0, 4)})
+    assert panel.send()[0] == (COMMAND, b"\xa0\x55\x15\x03\x04\x75\x00\x13")
+    assert panel.ram.state.down
+    panel.change({(row, 3) for row in range(2)})
+    assert all(b"\xa0" not in payload for kind, payload in panel.send() if kind == COMMAND)
