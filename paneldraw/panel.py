@@ -17,7 +17,7 @@ import numpy.typing as npt
 
 from paneldraw import urls
 from paneldraw.controllers import Controller
-from paneldraw.controllers.packing import pack_pages
+from paneldraw.controllers.packing import PACK
 from paneldraw.errors import PanelError, TransportError
 from paneldraw.framebuffer import Framebuffer, pictures
 from paneldraw.transports import I2CTransport, SerialTransport, Transport
@@ -47,6 +47,13 @@ class Report(NamedTuple):
     def unchanged(self) -> bool:
         """Whether the panel already showed this picture, so that nothing was sent."""
         return self.messages == 0
+
+
+class Sent(NamedTuple):
+    """What some commands took."""
+
+    wire_bytes: int
+    messages: int
 
 
 @dataclass(slots=True)
@@ -120,6 +127,7 @@ class Panel:
         self._lock = threading.RLock()
         self._closed = False
         self._planner = Planner(controller, transport.cost)
+        self._pack = PACK[controller.packing]
         self._contrast: int | None = None
         self._inverted = False
         self._asleep = False
@@ -213,7 +221,7 @@ class Panel:
             started = time.perf_counter()
             self._check_open()
             pixels, max_level = self._levels(source)
-            pack_pages(self._upright(pixels), max_level >> 1, self._planner.fresh)
+            self._pack(self._upright(pixels), max_level, self._planner.fresh)
             if force:
                 self._planner.forget()
             report = Report(*self._retrying(self._send), time.perf_counter() - started)
@@ -323,22 +331,22 @@ class Panel:
                 time.sleep(_PAUSE * 2**attempt)
         return operation()
 
-    def _start(self) -> int:
-        """Bring the chip from any state to a dark, configured one; return bytes on the wire."""
+    def _start(self) -> Sent:
+        """Bring the chip from any state to a dark, configured one."""
         chip = self.controller
-        settings = chip.inverse if self._inverted else b""
+        commands = [*chip.init, *([chip.inverse] if self._inverted else ())]
         if self._contrast is not None:
-            settings += self._contrast_command()
+            commands.append(self._contrast_command())
         self._lit = False
-        wire = self._command(chip.resync + chip.init + settings)
+        sent = self._command(*([chip.resync] if chip.resync else ()), *commands)
         self._planner.restart()
-        return wire
+        return sent
 
     def _send(self) -> tuple[int, int, int]:
         """Send the planner's fresh frame; return bytes on the wire, messages, changed bytes."""
         wire = messages = 0
         if not self._ready:
-            wire, messages = self._start(), 1
+            wire, messages = self._start()
         self._ready = False  # the planner counts a plan as sent
         plan = self._planner.plan()
         if plan.count:
@@ -347,16 +355,25 @@ class Panel:
             self._shown = True
         self._ready = True
         if not (self._lit or self._asleep):
-            wire += self._command(self.controller.power_on)
-            messages += 1
+            power_on = self._command(self.controller.power_on)
+            wire, messages = wire + power_on.wire_bytes, messages + power_on.messages
             self._lit = True
         return wire, messages + plan.count, plan.changed
 
-    def _command(self, payload: bytes) -> int:
+    def _command(self, *commands: bytes) -> Sent:
+        """Send commands, each with its arguments."""
+        wire = messages = 0
         self._ready = False
-        wire = self.transport.command(payload)
+        if self.controller.arguments_are_data:
+            for command in commands:
+                wire += self.transport.command(command[:1])
+                if len(command) > 1:
+                    wire += self.transport.data(command[1:])
+                messages += 1 + (len(command) > 1)
+        else:
+            wire, messages = self.transport.command(b"".join(commands)), 1
         self._ready = True
-        return wire
+        return Sent(wire, messages)
 
     def _change(self, payload: bytes) -> None:
         """Send a setting, after the picture where the panel may have lost it."""
@@ -416,7 +433,8 @@ def open_panel(url: str | None = None) -> Panel:
         ``serial:///dev/ttyACM0?baudrate=1000000`` one behind a microcontroller, which says what it is; where a device's
         name stands, pyserial's ``socket://host:port``, ``rfc2217://host:port`` and the like may stand, without
         ``serial://`` too; ``sim://ssd1306?size=128x64`` a simulated one, whose chip is
-        ``panel.transport.bus.devices[0x3C]``. Parameters are ``chip`` (of i2c and serial), ``size``, ``rotate``,
+        ``panel.transport.bus.devices[0x3C]``. Parameters are ``chip`` (of i2c and serial; a key of
+        `paneldraw.controllers.CHIPS`, of which the SSD1322 is on SPI, so behind a board), ``size``, ``rotate``,
         ``on_close`` and ``baudrate`` (of serial). Default: what the environment variable PANELDRAW_PANEL says, else
         ``sim://ssd1306``.
 

@@ -112,7 +112,7 @@ def parse(url: str) -> PanelURL | SerialURL:
         query = _query(parts, "size", "rotate", "on_close")
         if parts.path.strip("/"):
             raise ValueError(f"url must have the form {_FORMS['sim']}, not {url!r}")
-        return PanelURL("sim", _controller(parts.netloc or _CHIP, query), **_settings(query))
+        return PanelURL("sim", _on_i2c(_controller(parts.netloc or _CHIP, query)), **_settings(query))
     raise ValueError(f"url must have the form {' or '.join(_FORMS.values())}, not {url!r}")
 
 
@@ -138,7 +138,7 @@ def _i2c(parts: SplitResult) -> PanelURL:
         raise ValueError(f"url must have the form {_FORMS['i2c']}, not {parts.geturl()!r}")
     return PanelURL(
         "i2c",
-        _controller(query.get("chip", _CHIP), query),
+        _on_i2c(_controller(query.get("chip", _CHIP), query)),
         bus=int(place) if place.isdecimal() else place,
         address=_number(address, "address") if address else _ADDRESS,
         **_settings(query),
@@ -186,6 +186,12 @@ def _controller(chip: str, query: dict[str, str]) -> Controller:
     if not (width.isdecimal() and height.isdecimal()):
         raise ValueError(f"size must be like 128x64, not {query['size']!r}")
     return make(int(width), int(height))
+
+
+def _on_i2c(controller: Controller) -> Controller:
+    if controller.arguments_are_data:
+        raise ValueError(f"chip must be one that I2C reaches, not {controller.name!r}: it is on SPI, behind a board")
+    return controller
 
 
 def _settings(query: dict[str, str]) -> dict[str, Any]:

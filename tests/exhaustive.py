@@ -45,7 +45,7 @@ def _data(controller, cost, state, visible):
     column = 16 * upper + lower
     after = column + 1
     if after == controller.ram_width:
-        after = 0 if controller.column_wraps else None
+        after = 0 if controller.pointer.wraps else None
     lower, upper = (None, None) if after is None else (after % 16, after // 16)
     opening = 0 if message in ("data", "chain") else cost.data
     yield 1 + opening, (todo - {(page, column)}, page, lower, upper, "data")

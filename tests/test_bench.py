@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import importlib
+import itertools
+from pathlib import Path
+
 import numpy as np
 import pytest
 from PIL import Image
@@ -23,6 +27,21 @@ def test_every_scene_costs_less_than_a_whole_frame(lines):
     assert all(0 <= line.wire_bytes < bench.FULL_FRAME for line in lines)
     assert sum(line.wire_bytes > 0 for line in lines) >= 9
     assert lines[-1].wire_bytes == pytest.approx(np.mean([line.wire_bytes for line in lines[:-1]]))
+
+
+def test_no_scene_costs_more_than_a_whole_frame_a_box_or_page_runs(monkeypatch):
+    """The rules of the benchmark, on its 120 frames a scene."""
+    monkeypatch.syspath_prepend(Path(__file__).parent / "benchmarks")
+    scenes = importlib.import_module("scenes")
+    costs = []
+    for name, scene in SCENES.items():
+        pictures = scenes.frames(scene, scenes.FRAMES)
+        steps = [scenes.changes(*pair) for pair in itertools.pairwise(pictures)]
+        panel = scenes.Panels()
+        costs.append(panel.count(scenes.ours(panel), pictures))
+        for rule in scenes.RULES.values():
+            assert costs[-1] <= sum(map(rule, steps)), (name, rule)
+    assert np.mean(costs) / scenes.FRAMES < scenes.WANTED
 
 
 def test_bytes_are_what_the_panel_reports(lines):

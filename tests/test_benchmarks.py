@@ -10,7 +10,7 @@ import pytest
 
 FOLDER = Path(__file__).parent / "benchmarks"
 #: `link` takes a minute whatever its rounds; what it runs, the tests of the link run too.
-GROUPS = sorted(file.stem for file in FOLDER.glob("*.py") if file.stem not in ("run", "measure", "link"))
+GROUPS = sorted(file.stem for file in FOLDER.glob("*.py") if file.stem not in ("run", "measure", "peers", "link"))
 
 
 def run(*arguments):

@@ -9,7 +9,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from paneldraw import simulator
-from paneldraw.controllers import SSD1306, Controller
+from paneldraw.controllers import SH1106, SSD1306, SSD1327, Controller, PagePointer
 from paneldraw.transports import COMMAND, DATA, Cost
 
 I2C = Cost(2, 2, 2)
@@ -23,8 +23,14 @@ class Glass:
         self.controller = controller or SSD1306()
         self.planner = importlib.import_module("paneldraw.update").Planner(self.controller, cost)
         self.planner.restart()
-        self.chip = simulator.SSD1306(self.controller.width, self.controller.height)
-        self.chip.write(b"\x00" + self.controller.init)
+        self.longest = cost.longest or 1 << 20
+        make = getattr(simulator, self.controller.name.upper())
+        self.chip = make(self.controller.width, self.controller.height)
+        self.start()
+
+    def start(self):
+        """Bring the chip to where the planner believes it to be, and light it."""
+        self.chip.write(b"\x00" + b"".join(self.controller.init) + self.controller.power_on)
 
     def send(self, frame):
         """Bring a frame onto the chip; return the plan's messages as (kind, payload)."""
@@ -34,14 +40,17 @@ class Glass:
         for kind, payload in messages:
             self.chip.write(bytes((kind,)) + payload)
         assert plan.cost == sum(2 + len(payload) for _, payload in messages)
+        assert all(0 < len(payload) <= self.longest for _, payload in messages)
         self.planner.sent()
         return messages
 
     @property
-    def ram(self):
-        """What the chip holds, as the planner sees it: segments are counted from the other end."""
-        left = self.controller.column_offset
-        return self.chip.ram[: self.controller.height // 8, ::-1][:, left : left + self.controller.width]
+    def shown(self):
+        """What can be seen, packed as the planner has it."""
+        pixels = self.chip.pixels
+        if self.controller.packing == "pages":
+            return np.packbits(pixels, axis=0, bitorder="little")
+        return pixels[:, ::2] << 4 | pixels[:, 1::2]
 
     def cost(self, frame):
         return sum(2 + len(payload) for _, payload in self.send(frame))
@@ -57,53 +66,68 @@ def blank(controller=None):
 # -- Right
 
 
+CONTROLLERS = [
+    *(SSD1306(*size, chained_control=chained) for size in SIZES for chained in (False, True)),
+    SSD1306(64, 48, mirror_x=False, column_offset=32),
+    SH1106(),
+    SH1106(chained_control=True),
+    SSD1327(),
+    SSD1327(96, 96),
+]
+
+
 @st.composite
-def walks(draw):
+def walks(draw, controllers=tuple(CONTROLLERS)):
     """A controller and frames that differ by a few bytes, a box or everything."""
-    width, height = draw(st.sampled_from(SIZES))
+    controller = draw(st.sampled_from(controllers))
+    rows, width = controller.height // controller.cell[1], controller.width // controller.cell[0]
     random = np.random.default_rng(draw(st.integers(0, 2**32)))
-    frame = np.zeros((height // 8, width), np.uint8)
+    frame = np.zeros((rows, width), np.uint8)
     frames = []
-    for kind in draw(st.lists(st.sampled_from(["bytes", "many", "box", "noise", "row"]), min_size=1, max_size=8)):
+    for kind in draw(
+        st.lists(st.sampled_from(["bytes", "many", "box", "noise", "row", "line"]), min_size=1, max_size=8)
+    ):
         frame = frame.copy()
-        page, column = random.integers(height // 8), random.integers(width)
+        row, column = random.integers(rows), random.integers(width)
         if kind == "box":
-            frame[page : page + random.integers(1, 5), column : column + random.integers(1, 40)] ^= 0xFF
+            frame[row : row + random.integers(1, 5), column : column + random.integers(1, 40)] ^= 0xFF
         elif kind == "noise":
             frame[:] = random.integers(0, 256, frame.shape)
         elif kind == "row":
-            frame[page] ^= 0xFF
+            frame[row] ^= 0xFF
+        elif kind == "line":
+            frame[np.arange(rows), np.linspace(column, 0, rows).astype(int)] ^= 0x0F
         else:
             count = random.integers(1, 9 if kind == "bytes" else 120)
-            frame[random.integers(0, height // 8, count), random.integers(0, width, count)] ^= 0xA5
+            frame[random.integers(0, rows, count), random.integers(0, width, count)] ^= 0xA5
         frames.append(frame)
-    return SSD1306(width, height, chained_control=draw(st.booleans())), frames
+    return controller, frames
 
 
-@given(walks())
-def test_every_frame_arrives_by_the_datasheets_rules(package, walk):
+@given(walks(), st.sampled_from([None, 8191, 31, 1]))
+def test_every_frame_arrives_by_the_datasheets_rules(package, walk, longest):
     controller, frames = walk
-    glass = Glass(controller)
+    glass = Glass(controller, I2C if longest in (None, 8191) else Cost(2, 2, None, longest))
     for frame in frames:
         glass.send(frame)
-        np.testing.assert_array_equal(glass.ram, frame)
+        np.testing.assert_array_equal(glass.shown, frame)
     assert glass.chip.violations == []
 
 
 def test_the_first_plan_assumes_nothing_of_the_ram(package):
     glass = Glass()
     glass.send(np.zeros_like(glass.planner.fresh))
-    assert not glass.ram.any()
+    assert not glass.shown.any()
 
 
 @pytest.mark.parametrize("lose", ["forget", "restart"])
 def test_a_planner_that_knows_nothing_sends_everything(package, lose):
     glass, frame = blank()
     glass.chip.power_cycle()
-    glass.chip.write(b"\x00" + glass.controller.init)
+    glass.start()
     getattr(glass.planner, lose)()
     glass.send(frame)
-    assert not glass.ram.any()
+    assert not glass.shown.any()
 
 
 # -- Few bytes
@@ -184,10 +208,10 @@ def test_chained_control_bytes_only_where_the_chip_takes_them(package):
         glass.send(frame)
         frame[6, 101] = 1
         assert glass.cost(frame) == cost
-        np.testing.assert_array_equal(glass.ram, frame)
+        np.testing.assert_array_equal(glass.shown, frame)
 
 
-@given(walks())
+@given(walks([controller for controller in CONTROLLERS if controller.name == "ssd1306"]))
 def test_never_worse_than_the_page_pointer_or_one_bounding_window(package, walk):
     """Each step of its own: the same frame before, the same pointer."""
     controller, frames = walk
@@ -225,11 +249,11 @@ def small_updates(draw):
         name="small",
         width=width,
         height=8 * pages,
-        init=b"",
+        init=(),
         ram_width=left + width + beyond,
         ram_height=8 * pages,
         column_offset=left,
-        column_wraps=draw(st.booleans()),
+        pointer=PagePointer(wraps=draw(st.booleans())),
         chained_control=draw(st.booleans()),
     )
     cells = st.tuples(st.integers(0, pages - 1), st.integers(0, width - 1))
@@ -243,7 +267,7 @@ def test_the_page_pointers_plan_is_the_cheapest_there_is(update):
 
 
 @settings(max_examples=50)
-@given(small_updates(), st.builds(Cost, st.integers(1, 5), st.integers(1, 5), st.none()))
+@given(small_updates(), st.builds(Cost, st.integers(0, 5), st.integers(0, 5), st.none(), st.none()))
 def test_on_other_wires_too(update, cost):
     _assert_cheapest(update, cost)
 
@@ -259,7 +283,7 @@ def _assert_cheapest(update, cost):
     planner.sent()
     pointer = controller.column_offset + column + 1
     if pointer == controller.ram_width:
-        assume(controller.column_wraps)
+        assume(controller.pointer.wraps)
         pointer = 0
     for cell in cells:
         planner.fresh[cell] += 1
@@ -275,4 +299,4 @@ def test_more_pieces_than_the_exact_search_takes_still_beat_page_by_page():
     frame[:, 21] = frame[:, 70] = np.arange(1, 9)
     assert glass.planner.fresh.shape == (8, 128)
     assert glass.cost(frame) < 8 * (2 + 3 + 2 + 1) + 8 * (2 + 2 + 2 + 1)
-    np.testing.assert_array_equal(glass.ram, frame)
+    np.testing.assert_array_equal(glass.shown, frame)

@@ -4,7 +4,7 @@ import pytest
 
 from firmware_protocol import HelloReply
 from paneldraw import urls
-from paneldraw.controllers import SSD1306
+from paneldraw.controllers import SH1106, SSD1306, SSD1327
 from paneldraw.errors import ProtocolError
 
 
@@ -18,6 +18,9 @@ from paneldraw.errors import ProtocolError
         ("i2c://1/", {}),
         ("i2c://3/0x3d", {"bus": 3, "address": 0x3D}),
         ("i2c://3/61", {"bus": 3, "address": 0x3D}),
+        ("i2c://1/0x3d?chip=ssd1327", {"address": 0x3D, "controller": SSD1327()}),
+        ("i2c://1/0x3c?chip=sh1106", {"controller": SH1106()}),
+        ("sim://ssd1327?size=96x96", {"scheme": "sim", "controller": SSD1327(96, 96)}),
         ("i2c:///dev/i2c-7/0x3d", {"bus": "/dev/i2c-7", "address": 0x3D}),
         (
             "i2c://1/0x3c?chip=ssd1306&size=96x16&rotate=180&on_close=clear",

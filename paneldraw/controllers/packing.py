@@ -4,11 +4,12 @@
 from __future__ import annotations
 
 import cython
+import numpy as np
 
 
 def pack_pages(
     levels: cython.const[cython.uchar][:, :],  # type: ignore[valid-type]
-    threshold: cython.uchar,
+    max_level: cython.int,
     packed: cython.uchar[:, ::1],
 ) -> None:
     """Pack rows of levels into pages: a byte is eight rows of a column, the topmost in the lowest bit.
@@ -17,8 +18,8 @@ def pack_pages(
     ----------
     levels : (height, width) uint8, any strides
         The height a multiple of 8.
-    threshold : int
-        Levels above it are lit.
+    max_level : int
+        The highest level; the upper half of the levels is lit.
     packed : (height / 8, width) uint8, contiguous
         Where the pages go, from the top.
     """
@@ -30,12 +31,12 @@ def pack_pages(
                 cython.cast(cython.p_uchar, cython.address(levels[y, 0])),
                 levels.strides[1],
                 width,
-                threshold,
+                max_level >> 1,
                 y & 7,
                 cython.address(packed[y >> 3, 0]),
             )
         else:
-            _pack_row(levels[y], 1, width, threshold, y & 7, packed[y >> 3])
+            _pack_row(levels[y], 1, width, max_level >> 1, y & 7, packed[y >> 3])
 
 
 @cython.cfunc
@@ -60,3 +61,37 @@ def _pack_row(
     else:
         for x in range(width):
             target[x] |= bit if source[x * step] > threshold else 0
+
+
+def pack_nibbles(
+    levels: cython.const[cython.uchar][:, :],  # type: ignore[valid-type]
+    max_level: cython.int,
+    packed: cython.uchar[:, ::1],
+) -> None:
+    """Pack rows of levels two pixels a byte, the left one in the upper half.
+
+    Parameters
+    ----------
+    levels : (height, width) uint8, any strides
+        The width even.
+    max_level : int
+        The highest level, 1, 3, 15 or 255; it becomes 15, and each below the nearest to its share.
+    packed : (height, width / 2) uint8, contiguous
+        Where the rows go, from the top.
+    """
+    nibbles: cython.const[cython.uchar][::1] = _NIBBLES[max_level]  # type: ignore[valid-type]
+    y: cython.Py_ssize_t
+    x: cython.Py_ssize_t
+    for y in range(packed.shape[0]):
+        for x in range(packed.shape[1]):
+            packed[y, x] = nibbles[levels[y, 2 * x]] << 4 | nibbles[levels[y, 2 * x + 1]]
+
+
+_NIBBLES = {
+    highest: ((30 * np.arange(256) + highest) // (2 * highest)).clip(max=15).astype(np.uint8)
+    for highest in (1, 3, 15, 255)
+}
+"""What a level becomes, by the highest level that there is."""
+
+PACK = {"pages": pack_pages, "nibbles": pack_nibbles}
+"""The functions by the packing that a controller names."""

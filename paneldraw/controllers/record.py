@@ -3,9 +3,75 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Final
 
-ADDRESSING = ("page", "window")
-PACKINGS = ("pages",)
+#: Pixels that share a byte, by packing: columns and rows.
+PACKINGS: Final = {"pages": (1, 8), "nibbles": (2, 1)}
+_DEPTHS: Final = {"pages": 1, "nibbles": 4}
+
+
+def commands(text: str) -> tuple[bytes, ...]:
+    """Read commands, each with its arguments, in hex and with commas in between.
+
+    Examples
+    --------
+    >>> commands("AE, D5 80")
+    (b'\\xae', b'\\xd5\\x80')
+    """
+    return tuple(map(bytes.fromhex, text.split(",")))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PagePointer:
+    """One way to say where data goes: ``B0+p 00+lo 10+hi``, of which each can be sent alone.
+
+    Attributes
+    ----------
+    mode : bytes
+        Command that selects this way; empty where the chip has no other. Default: empty.
+    wraps : bool
+        Whether the column pointer returns from the last RAM column to the first. Default: False.
+
+    Examples
+    --------
+    >>> PagePointer(mode=bytes((0x20, 2)), wraps=True).wraps
+    True
+    """
+
+    mode: bytes = b""
+    wraps: bool = False
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Window:
+    """Another way: a rectangle, whose columns and rows each have a command, first and last one as arguments.
+
+    The command puts the pointer at its first column or row; data fills the rectangle, and from its end goes on at its
+    start.
+
+    Attributes
+    ----------
+    columns, rows : int
+        The two commands.
+    across, down : bytes
+        Commands that select this way, filled row by row and column by column.
+    column_bytes : int
+        Bytes that share a column address. Default: 1.
+    write : bytes
+        Command between any other and data. Default: none.
+
+    Examples
+    --------
+    >>> Window(columns=0x21, rows=0x22, across=bytes((0x20, 0)), down=bytes((0x20, 1))).column_bytes
+    1
+    """
+
+    columns: int
+    rows: int
+    across: bytes
+    down: bytes
+    column_bytes: int = 1
+    write: bytes = b""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -21,21 +87,21 @@ class Controller:
         The chip, in lower case.
     width, height : int
         Visible pixels.
-    init : bytes
-        Commands that bring the chip from any state to a dark, configured one, in page mode where it has modes.
+    init : tuple of bytes
+        Commands, each with its arguments, that bring the chip from any state to a dark, configured one, in the mode of
+        the page pointer if it has one, else with windows filled across.
     ram_width, ram_height : int
         Pixels that the chip's RAM holds.
     column_offset, row_offset : int
-        RAM column and row of the top-left visible pixel. Default: 0.
-    depth : int
-        Bits a pixel. Default: 1.
+        RAM column and row, in pixels, of the top-left visible pixel. Default: 0.
     packing : str
-        How pixels share bytes: ``"pages"`` is eight rows a byte, the topmost in the lowest bit. Default: ``"pages"``.
-    addressing : tuple of str
-        Ways to say where data goes: ``"page"`` (``B0+p 00+lo 10+hi``), ``"window"`` (``20`` mode, ``21`` columns,
-        ``22`` pages). Default: ``("page",)``.
-    column_wraps : bool
-        Whether the column pointer of page mode returns from the last RAM column to the first. Default: False.
+        How pixels share bytes: ``"pages"`` is eight rows of one bit a byte, the topmost in the lowest bit;
+        ``"nibbles"`` two pixels of four bits, the left one in the upper half. Default: ``"pages"``.
+    pointer : PagePointer, optional
+    window : Window, optional
+        The ways to say where data goes; there is one or both. Default: the page pointer alone.
+    arguments_are_data : bool
+        Whether arguments of commands go as data, with D/C high, which rules I2C out. Default: False.
     chained_control : bool
         Whether the chip takes I2C control bytes with the continuation bit well, clones included. Default: False.
     resync : bytes
@@ -51,15 +117,15 @@ class Controller:
     name: str
     width: int
     height: int
-    init: bytes
+    init: tuple[bytes, ...]
     ram_width: int
     ram_height: int
     column_offset: int = 0
     row_offset: int = 0
-    depth: int = 1
     packing: str = "pages"
-    addressing: tuple[str, ...] = ("page",)
-    column_wraps: bool = False
+    pointer: PagePointer | None = PagePointer()
+    window: Window | None = None
+    arguments_are_data: bool = False
     chained_control: bool = False
     resync: bytes = b"\xe3" * 6
     power_on: bytes = b"\xaf"
@@ -78,7 +144,25 @@ class Controller:
             raise ValueError(f"row_offset must be 0 to {self.ram_height - self.height}, not {self.row_offset}")
         if self.packing not in PACKINGS:
             raise ValueError(f"packing must be one of {', '.join(PACKINGS)}, not {self.packing!r}")
-        if "page" not in self.addressing or not set(self.addressing) <= set(ADDRESSING):
-            raise ValueError(f"addressing must hold 'page' and may hold 'window', not {self.addressing!r}")
-        if self.height % 8 or self.row_offset % 8:
-            raise ValueError(f"pages are 8 rows: height {self.height} and row_offset {self.row_offset} must fit them")
+        if self.pointer is None and self.window is None:
+            raise ValueError("pointer and window must not both be None: data must have a way")
+        if self.pointer is not None and self.packing != "pages":
+            raise ValueError(f"pointer must be None where packing is {self.packing!r}")
+        if self.arguments_are_data and (self.pointer is not None or not (self.window and self.window.write)):
+            raise ValueError("arguments_are_data must be False where no command of the window sets data apart")
+        wide, high = self.cell
+        if self.width % wide or self.column_offset % wide:
+            raise ValueError(f"width {self.width} and column_offset {self.column_offset} must be multiples of {wide}")
+        if self.height % high or self.row_offset % high:
+            raise ValueError(f"height {self.height} and row_offset {self.row_offset} must be multiples of {high}")
+
+    @property
+    def depth(self) -> int:
+        """Bits a pixel."""
+        return _DEPTHS[self.packing]
+
+    @property
+    def cell(self) -> tuple[int, int]:
+        """Width and height in pixels of what one address holds: the grid of pointers and windows."""
+        wide, high = PACKINGS[self.packing]
+        return wide * (self.window.column_bytes if self.window else 1), high

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from paneldraw.controllers.record import Controller
+from paneldraw.controllers.record import Controller, PagePointer, Window, commands
 
 RAM_WIDTH, RAM_HEIGHT = 128, 64
 
@@ -77,12 +77,11 @@ def SSD1306(  # noqa: N802 - reads as the chip that it makes
         raise ValueError(f"com_pins must be 0x02, 0x12, 0x22 or 0x32, not {pins!r}")
     offset = glass.column_offset if column_offset is None else column_offset
     init = (
-        bytes((0xAE, 0xD5, glass.clock, 0xA8, height - 1, 0xD3, 0x00, 0x40))
-        + (b"\x8d\x14" if charge_pump else b"\x8d\x10")
-        + (b"\xad\x30" if internal_reference else b"")
-        + bytes((0x20, 0x02, 0xA0 if mirror_x else 0xA1, 0xC0 if mirror_y else 0xC8, 0xDA, pins))
-        + (b"\x81\xcf\xd9\xf1" if charge_pump else b"\x81\x9f\xd9\x22")
-        + b"\xdb\x30\x2e\xa4\xa6"
+        *commands(f"AE, D5 {glass.clock:02X}, A8 {height - 1:02X}, D3 00, 40, 8D {'14' if charge_pump else '10'}"),
+        *(commands("AD 30") if internal_reference else ()),
+        *commands(f"20 02, {'A0' if mirror_x else 'A1'}, {'C0' if mirror_y else 'C8'}, DA {pins:02X}"),
+        *commands("81 CF, D9 F1" if charge_pump else "81 9F, D9 22"),
+        *commands("DB 30, 2E, A4, A6"),
     )
     return Controller(
         name="ssd1306",
@@ -92,7 +91,7 @@ def SSD1306(  # noqa: N802 - reads as the chip that it makes
         ram_width=RAM_WIDTH,
         ram_height=RAM_HEIGHT,
         column_offset=RAM_WIDTH - width - offset if mirror_x else offset,
-        addressing=("page", "window"),
-        column_wraps=True,
+        pointer=PagePointer(mode=b"\x20\x02", wraps=True),
+        window=Window(columns=0x21, rows=0x22, across=b"\x20\x00", down=b"\x20\x01"),
         chained_control=chained_control,
     )

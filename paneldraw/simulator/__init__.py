@@ -7,13 +7,28 @@ from typing import TYPE_CHECKING
 from .bus import I2CBus
 from .frames import Frame
 from .recorder import Look, contact_sheet, image, save
+from .sh1106 import SH1106
 from .ssd1306 import SSD1306
+from .ssd1327 import SSD1327
 from .terminal import TerminalView, text
 
 if TYPE_CHECKING:
     from .web import serve
 
-__all__ = ["SSD1306", "Frame", "I2CBus", "Look", "TerminalView", "contact_sheet", "image", "save", "serve", "text"]
+__all__ = [
+    "SH1106",
+    "SSD1306",
+    "SSD1327",
+    "Frame",
+    "I2CBus",
+    "Look",
+    "TerminalView",
+    "contact_sheet",
+    "image",
+    "save",
+    "serve",
+    "text",
+]
 
 
 def __getattr__(name: str) -> object:

@@ -1,69 +1,80 @@
-"""From display RAM to what an eye sees: how a module's glass is joined to the pads of its SSD1306."""
+"""From display RAM to what an eye sees: how a module's glass is joined to the pads of its chip."""
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .frames import Picture
-from .ssd1306_commands import COLUMNS, ROWS, Registers
 
 
-class Module(NamedTuple):
-    """How a module of one size is wired: its first visible RAM column, and the DA value that suits its COM pads."""
+class Scan(Protocol):
+    """The registers that say how RAM rows come onto the glass."""
 
-    column_offset: int
-    com_pins: int
+    multiplex: int
+    offset: int
+    start_line: int
 
+    @property
+    def com_reversed(self) -> bool:
+        """Whether COM lines are reversed."""
 
-MODULES = {
-    (128, 64): Module(0, 0x12),
-    (128, 32): Module(0, 0x02),
-    (96, 16): Module(0, 0x02),
-    (72, 40): Module(28, 0x12),
-    (64, 48): Module(32, 0x12),
-    (64, 32): Module(32, 0x12),
-    (48, 64): Module(40, 0x12),
-}
+    @property
+    def signals(self) -> NDArray[np.intp]:
+        """Which COM signal each pad carries."""
 
 
-def _signals(com_pins: int) -> NDArray[np.intp]:
-    """Which of the 64 COM signals each of the 64 pads carries under a DA setting (datasheet, table of COM pins)."""
-    signals = np.arange(ROWS)
-    if com_pins & 0x10:
+def com_signals(rows: int, *, alternate: bool, swapped: bool = False) -> NDArray[np.intp]:
+    """Which COM signal each pad carries: in sequence, or even ones before odd ones; the halves swapped or not."""
+    signals = np.arange(rows)
+    if alternate:
         signals = np.concatenate((signals[0::2], signals[1::2]))
-    if com_pins & 0x20:
-        signals = np.roll(signals, ROWS // 2)
+    if swapped:
+        signals = np.roll(signals, rows // 2)
     return signals
 
 
 class Glass:
     """The visible lines and columns of a module, joined to fixed COM and SEG pads.
 
-    Line 0 of the glass is the one that the module's own DA setting gives to COM signal 0. With C8 that is the bottom
-    line, and with A1 column 0 of the window is on the left: the common module stands upright under A1 and C8.
+    With COM lines reversed the bottom line of the glass is on the first COM signal that the module uses, and with
+    segments remapped column 0 is on the left: the common module stands upright under both.
+
+    Parameters
+    ----------
+    width, height : int
+        Visible pixels.
+    columns : int
+        Segments of the chip.
+    column_offset : int
+        First visible segment from the left.
+    signals : (rows,) int array
+        Which COM signal each pad carries under the setting that the glass is wired for.
+    first_com : int, optional
+        First COM signal that the glass uses. Default: 0.
     """
 
-    def __init__(self, width: int, height: int, module: Module) -> None:
-        self.shape = (height, width)
-        left = COLUMNS - 1 - module.column_offset
+    def __init__(
+        self,
+        width: int,
+        height: int,
+        *,
+        columns: int,
+        column_offset: int,
+        signals: NDArray[np.intp],
+        first_com: int = 0,
+    ) -> None:
+        left = columns - 1 - column_offset
         self._segments = np.arange(left, left - width, -1)
-        pads = np.argsort(_signals(module.com_pins))
-        self._pads = pads[:height][::-1]
+        pads = np.argsort(signals)
+        self._pads = pads[first_com : first_com + height][::-1]
 
-    def pixels(self, ram: Picture, registers: Registers) -> Picture:
-        """The levels that an eye sees; `ram` has shape (8, 128): pages and segments."""
-        if not (registers.on and (registers.pump_enabled or registers.external_vcc)):
-            return np.zeros(self.shape, np.uint8)
-        signals = _signals(registers.com_pins)[self._pads]
-        lines = registers.multiplex - signals if registers.com_reversed else signals
-        rows = (lines + registers.offset) % ROWS
-        driven = rows <= registers.multiplex
-        if registers.all_on:
-            levels = np.ones(self.shape, np.uint8)
-        else:
-            bits = np.unpackbits(ram[:, self._segments], axis=0, bitorder="little")
-            levels = bits[(rows + registers.start_line) % ROWS] ^ np.uint8(registers.inverted)
-        return levels * driven[:, np.newaxis].astype(np.uint8)
+    def pixels(self, levels: Picture, scan: Scan) -> tuple[Picture, NDArray[np.bool_]]:
+        """Bring levels (rows, segments) onto the glass; return them and which lines are driven at all."""
+        signals = scan.signals[self._pads]
+        lines = scan.multiplex - signals if scan.com_reversed else signals
+        rows = (lines + scan.offset) % len(levels)
+        seen = levels[(rows + scan.start_line) % len(levels)][:, self._segments]
+        return seen, rows <= scan.multiplex

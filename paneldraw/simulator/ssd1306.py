@@ -2,21 +2,46 @@
 
 from __future__ import annotations
 
-import random
-from collections import deque
-from collections.abc import Iterator
+from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
-from .frames import Frame, Picture
-from .glass import MODULES, Glass, Module
-from .ssd1306_commands import COLUMNS, COM_PINS, COMMANDS, HORIZONTAL, PAGES, ROWS, VERTICAL, Registers
+from .chip import Chip
+from .frames import Picture
+from .glass import Glass
+from .ssd1306_commands import (
+    COLUMNS,
+    COM_PINS,
+    COMMANDS,
+    HORIZONTAL,
+    PAGES,
+    ROWS,
+    VERTICAL,
+    Registers,
+    pad_signals,
+)
 
-_STATUS_OFF = 0x40
-_MAX_VIOLATIONS = 1000
+
+class Module(NamedTuple):
+    """How a module of one size is wired: its first visible RAM column, and the DA value that suits its COM pads."""
+
+    column_offset: int
+    com_pins: int
 
 
-class SSD1306:
+MODULES = {
+    (128, 64): Module(0, 0x12),
+    (128, 32): Module(0, 0x02),
+    (96, 16): Module(0, 0x02),
+    (72, 40): Module(28, 0x12),
+    (64, 48): Module(32, 0x12),
+    (64, 32): Module(32, 0x12),
+    (48, 64): Module(40, 0x12),
+}
+
+
+class SSD1306(Chip):
     """An SSD1306 with its glass: 128 x 64 bits of RAM behind a window of `width` x `height` pixels.
 
     Parameters
@@ -70,7 +95,8 @@ class SSD1306:
     []
     """
 
-    max_level = 1
+    _commands = COMMANDS
+    registers: Registers
 
     def __init__(
         self,
@@ -83,140 +109,51 @@ class SSD1306:
         history: int | None = 1000,
         seed: int | None = 0,
     ) -> None:
-        self._glass = Glass(width, height, _module(width, height, column_offset, com_pins))
-        self.width, self.height = width, height
+        module = _module(width, height, column_offset, com_pins)
+        self._glass = Glass(
+            width,
+            height,
+            columns=COLUMNS,
+            column_offset=module.column_offset,
+            signals=pad_signals(module.com_pins),
+        )
         self.external_vcc = external_vcc
-        self.frames: deque[Frame] = deque(maxlen=history)
-        self.violations: list[str] = []
-        self._random = random.Random(seed)
-        self._ram = np.zeros((PAGES, COLUMNS), np.uint8)
-        self._seen: Picture = np.zeros((height, width), np.uint8)
-        self._unframed_bytes = 0
-        self.power_cycle()
-
-    # power
-
-    def power_cycle(self) -> None:
-        """Lose power and get it back: registers at reset, RAM undefined (noise from `seed`)."""
-        noise = np.frombuffer(self._random.randbytes(self._ram.size), np.uint8)
-        self._ram[:] = noise.reshape(self._ram.shape)
-        self.reset()
-
-    def reset(self) -> None:
-        """Pull the reset pin: registers at reset, a half-sent command forgotten, RAM as it was."""
-        self.registers = Registers(external_vcc=self.external_vcc)
-        self._pending = bytearray()
-        self._picture: Picture | None = None
-
-    # the wire
-
-    def write(self, payload: bytes | bytearray | memoryview) -> None:
-        """Take one I2C write: the bytes after the address byte, control bytes included.
-
-        A command whose arguments do not fit in this write waits for them in the next, as the chip does.
-        """
-        self._picture = None
-        for is_data, run in self._runs(bytes(payload)):
-            if is_data:
-                self._data(run)
-            else:
-                self._commands(run)
-
-    def read(self, length: int) -> bytes:
-        """Answer one I2C read: the status byte, `length` times. Bit 6 is set while the display is off."""
-        return bytes([0 if self.registers.on else _STATUS_OFF]) * length
-
-    def settle(self, seconds: float, wire_bytes: int) -> None:
-        """Note that a bus call is over: record a frame if the eye sees another picture than before.
-
-        Buses call this; call it yourself only where you call `write` without a bus.
-
-        Parameters
-        ----------
-        seconds : float
-            The time, for the frame.
-        wire_bytes : int
-            Bytes that this call put on the wire for this chip.
-        """
-        self._unframed_bytes += wire_bytes
-        pixels = self.pixels
-        if not np.array_equal(pixels, self._seen):
-            self._seen = pixels
-            self.frames.append(Frame(pixels, seconds, self._unframed_bytes, self.max_level))
-            self._unframed_bytes = 0
-
-    # what can be seen
-
-    @property
-    def pixels(self) -> Picture:
-        """What an eye sees: levels 0 and 1, uint8, shape (height, width), read-only."""
-        if self._picture is None:
-            self._picture = self._glass.pixels(self._ram, self.registers)
-            self._picture.flags.writeable = False
-        return self._picture
+        super().__init__(width, height, np.zeros((PAGES, COLUMNS), np.uint8), history, seed)
 
     @property
     def ram(self) -> Picture:
         """A copy of the RAM, uint8, shape (8, 128): pages and segments. Under A1 column c is segment 127 - c."""
-        return self._ram.copy()
+        return super().ram
 
-    @property
-    def contrast(self) -> int:
-        """Contrast, 0 ... 255; 127 after reset."""
-        return self.registers.contrast
+    def _registers(self) -> Registers:
+        return Registers(external_vcc=self.external_vcc)
 
-    def __repr__(self) -> str:
-        power = "on" if self.registers.on else "off"
-        return f"<SSD1306 {self.width}x{self.height}, {power}, {len(self.frames)} frames>"
-
-    # inside
-
-    def _complain(self, violation: str) -> None:
-        if violation not in self.violations and len(self.violations) < _MAX_VIOLATIONS:
-            self.violations.append(violation)
-
-    def _runs(self, payload: bytes) -> Iterator[tuple[bool, bytes]]:
-        """Split a write at its control bytes into (is data, bytes)."""
-        at = 0
-        while at < len(payload):
-            control = payload[at]
-            if control & 0x3F:
-                self._complain(f"control byte {control:02X}: the lower six bits are 0")
-            one_byte = bool(control & 0x80)
-            end = at + 2 if one_byte else len(payload)
-            if end > len(payload):
-                self._complain(f"control byte {control:02X}: a byte must follow, and the transaction ended")
-            yield bool(control & 0x40), payload[at + 1 : end]
-            at = end
-
-    def _commands(self, run: bytes) -> None:
-        for byte in run:
-            self._pending.append(byte)
-            command = COMMANDS[self._pending[0]]
-            if len(self._pending) > command.arguments:
-                command.act(self.registers, self._pending, self._complain)
-                self._pending.clear()
-
-    def _data(self, run: bytes) -> None:
-        if not run:
-            return
+    def _look(self) -> Picture:
         registers = self.registers
-        if self._pending:
-            self._complain(f"data while command {self._pending[0]:02X} waits for its arguments")
+        if not registers.lit:
+            return np.zeros((self.height, self.width), np.uint8)
+        levels, driven = self._glass.pixels(np.unpackbits(self._ram, axis=0, bitorder="little"), registers)
+        if registers.all_on:
+            levels = np.ones_like(levels)
+        elif registers.inverted:
+            levels = 1 - levels
+        return levels * driven[:, np.newaxis].astype(np.uint8)
+
+    def _store(self, data: NDArray[np.uint8]) -> None:
+        registers = self.registers
         if registers.scroll.running:
             self._complain("data while a scroll is running; send 2E first")
         ram = self._ram[:, ::-1] if registers.segment_remap else self._ram
-        levels = np.frombuffer(run, np.uint8)
-        while levels.size:
+        while data.size:
             if registers.mode == VERTICAL:
-                count = min(levels.size, _until(registers.page, registers.page_end, PAGES))
-                ram[registers.page : registers.page + count, registers.column] = levels[:count]
+                count = min(data.size, _until(registers.page, registers.page_end, PAGES))
+                ram[registers.page : registers.page + count, registers.column] = data[:count]
             else:
                 last = registers.column_end if registers.mode == HORIZONTAL else COLUMNS - 1
-                count = min(levels.size, _until(registers.column, last, COLUMNS))
-                ram[registers.page, registers.column : registers.column + count] = levels[:count]
+                count = min(data.size, _until(registers.column, last, COLUMNS))
+                ram[registers.page, registers.column : registers.column + count] = data[:count]
             _advance(registers, count)
-            levels = levels[count:]
+            data = data[count:]
 
 
 def _until(position: int, last: int, size: int) -> int:

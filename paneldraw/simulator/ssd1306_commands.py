@@ -1,18 +1,24 @@
-"""What each command of the SSD1306 does to its registers, after the datasheet's command table.
-
-A command never fails on a chip. What the datasheet forbids is handed to ``complain``, and then happens as far as
-the register's bits allow.
-"""
+"""What each command of the SSD1306 does to its registers, after the datasheet's command table."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Container, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .commands import Command, Complain, Setting, foreign, nothing, table, written
+from .glass import com_signals
 
 HORIZONTAL, VERTICAL, PAGE = 0, 1, 2
 COLUMNS, PAGES, ROWS = 128, 8, 64
 COM_PINS = (0x02, 0x12, 0x22, 0x32)
+
+
+def pad_signals(com_pins: int) -> NDArray[np.intp]:
+    """Which COM signal each pad carries under a DA setting."""
+    return com_signals(ROWS, alternate=bool(com_pins & 0x10), swapped=bool(com_pins & 0x20))
 
 
 @dataclass
@@ -65,38 +71,28 @@ class Registers:
         """Whether the charge pump is switched on."""
         return bool(self.charge_pump & 0x04)
 
+    @property
+    def lit(self) -> bool:
+        """Whether the panel is on and fed."""
+        return self.on and (self.pump_enabled or self.external_vcc)
 
-Complain = Callable[[str], None]
-Act = Callable[[Registers, Sequence[int], Complain], None]
-
-
-class Command(NamedTuple):
-    """How many argument bytes a command takes, and what it does once they are there (the opcode is byte 0)."""
-
-    arguments: int
-    act: Act
-
-
-class _Setting(NamedTuple):
-    """A command whose one argument goes into one register."""
-
-    register: str
-    mask: int
-    legal: Container[int]
-    rule: str
+    @property
+    def signals(self) -> NDArray[np.intp]:
+        """Which COM signal each pad carries (datasheet, table of COM pins)."""
+        return pad_signals(self.com_pins)
 
 
 _SETTINGS = {
-    0x20: _Setting("mode", 0x03, (HORIZONTAL, VERTICAL, PAGE), "the addressing mode is 00, 01 or 02"),
-    0x81: _Setting("contrast", 0xFF, range(256), ""),
-    0xA8: _Setting("multiplex", 0x3F, range(15, 64), "the multiplex ratio is 0F to 3F (16 to 64 lines)"),
-    0xD3: _Setting("offset", 0x3F, range(64), "the display offset is 00 to 3F"),
-    0xD5: _Setting("clock", 0xFF, range(256), ""),
-    0xD9: _Setting(
+    0x20: Setting("mode", 0x03, (HORIZONTAL, VERTICAL, PAGE), "the addressing mode is 00, 01 or 02"),
+    0x81: Setting("contrast", 0xFF, range(256), ""),
+    0xA8: Setting("multiplex", 0x3F, range(15, 64), "the multiplex ratio is 0F to 3F (16 to 64 lines)"),
+    0xD3: Setting("offset", 0x3F, range(64), "the display offset is 00 to 3F"),
+    0xD5: Setting("clock", 0xFF, range(256), ""),
+    0xD9: Setting(
         "precharge", 0xFF, [n for n in range(256) if n & 0x0F and n & 0xF0], "a precharge phase of 0 clocks is invalid"
     ),
-    0xDA: _Setting("com_pins", 0x3F, COM_PINS, "the COM pins are 02, 12, 22 or 32"),
-    0xDB: _Setting("vcomh", 0x70, (0x00, 0x20, 0x30), "the VCOMH level is 00, 20 or 30"),
+    0xDA: Setting("com_pins", 0x3F, COM_PINS, "the COM pins are 02, 12, 22 or 32"),
+    0xDB: Setting("vcomh", 0x70, (0x00, 0x20, 0x30), "the VCOMH level is 00, 20 or 30"),
 }
 
 _FLAGS: dict[int, tuple[str, bool]] = {
@@ -119,44 +115,9 @@ _RELATIVES = {
 }
 
 
-def _hex(sent: Sequence[int]) -> str:
-    return " ".join(f"{byte:02X}" for byte in sent)
-
-
-def _setting(setting: _Setting) -> Act:
-    def act(registers: Registers, sent: Sequence[int], complain: Complain) -> None:
-        if sent[1] not in setting.legal:
-            complain(f"{_hex(sent)}: {setting.rule}")
-        setattr(registers, setting.register, sent[1] & setting.mask)
-
-    return act
-
-
-def _flag(register: str, value: bool) -> Act:
-    def act(registers: Registers, sent: Sequence[int], complain: Complain) -> None:
-        setattr(registers, register, value)
-
-    return act
-
-
-def _relative(name: str) -> Act:
-    def act(registers: Registers, sent: Sequence[int], complain: Complain) -> None:
-        complain(f"{_hex(sent)}: not a command of the SSD1306 ({name}); ignored")
-
-    return act
-
-
-def _nothing(registers: Registers, sent: Sequence[int], complain: Complain) -> None:
-    pass
-
-
-def _unknown(registers: Registers, sent: Sequence[int], complain: Complain) -> None:
-    complain(f"{_hex(sent)}: not a command of the SSD1306; ignored")
-
-
 def _only_in_page_mode(registers: Registers, sent: Sequence[int], complain: Complain) -> None:
     if registers.mode != PAGE:
-        complain(f"{_hex(sent)}: the page pointer commands B0-B7, 00-0F and 10-1F are for page addressing mode only")
+        complain(f"{written(sent)}: the page pointer commands B0-B7, 00-0F and 10-1F are for page addressing mode only")
 
 
 def _column_low(registers: Registers, sent: Sequence[int], complain: Complain) -> None:
@@ -167,7 +128,7 @@ def _column_low(registers: Registers, sent: Sequence[int], complain: Complain) -
 def _column_high(registers: Registers, sent: Sequence[int], complain: Complain) -> None:
     _only_in_page_mode(registers, sent, complain)
     if sent[0] > 0x17:
-        complain(f"{_hex(sent)}: there is no column past 127")
+        complain(f"{written(sent)}: there is no column past 127")
     registers.column = (sent[0] & 0x07) << 4 | registers.column & 0x0F
 
 
@@ -179,12 +140,12 @@ def _page_pointer(registers: Registers, sent: Sequence[int], complain: Complain)
 def _window(registers: Registers, sent: Sequence[int], complain: Complain) -> None:
     axis, size = ("column", COLUMNS) if sent[0] == 0x21 else ("page", PAGES)
     if registers.mode == PAGE:
-        complain(f"{_hex(sent)}: windows are for horizontal and vertical addressing mode only")
+        complain(f"{written(sent)}: windows are for horizontal and vertical addressing mode only")
     if max(sent[1:]) >= size:
-        complain(f"{_hex(sent)}: there is no {axis} past {size - 1}")
+        complain(f"{written(sent)}: there is no {axis} past {size - 1}")
     start, end = sent[1] % size, sent[2] % size
     if start > end:
-        complain(f"{_hex(sent)}: the window starts at {axis} {start}, after its end at {end}")
+        complain(f"{written(sent)}: the window starts at {axis} {start}, after its end at {end}")
     setattr(registers, f"{axis}_start", start)
     setattr(registers, f"{axis}_end", end)
     setattr(registers, axis, start)
@@ -196,20 +157,20 @@ def _start_line(registers: Registers, sent: Sequence[int], complain: Complain) -
 
 def _charge_pump(registers: Registers, sent: Sequence[int], complain: Complain) -> None:
     if sent[1] & 0x3F not in (0x10, 0x14):
-        complain(f"{_hex(sent)}: the charge pump takes 10 (off) or 14 (on)")
+        complain(f"{written(sent)}: the charge pump takes 10 (off) or 14 (on)")
     elif registers.on and bool(sent[1] & 0x04) != registers.pump_enabled:
-        complain(f"{_hex(sent)}: the charge pump is switched while the display is off, before AF")
+        complain(f"{written(sent)}: the charge pump is switched while the display is off, before AF")
     registers.charge_pump = sent[1]
 
 
 def _display_on(registers: Registers, sent: Sequence[int], complain: Complain) -> None:
     if not (registers.pump_enabled or registers.external_vcc):
-        complain(f"{_hex(sent)}: display on without a supply for the panel; enable the charge pump first (8D 14)")
+        complain(f"{written(sent)}: display on without a supply for the panel; enable the charge pump first (8D 14)")
     registers.on = True
 
 
 def _scroll(registers: Registers, sent: Sequence[int], complain: Complain) -> None:
-    scroll, text = registers.scroll, _hex(sent)
+    scroll, text = registers.scroll, written(sent)
     if scroll.running:
         complain(f"{text}: a scroll is set up only while none is running; send 2E first")
     if sent[1]:
@@ -231,45 +192,39 @@ def _scroll(registers: Registers, sent: Sequence[int], complain: Complain) -> No
 
 def _scroll_area(registers: Registers, sent: Sequence[int], complain: Complain) -> None:
     if registers.scroll.running:
-        complain(f"{_hex(sent)}: the scroll area is set only while no scroll is running; send 2E first")
+        complain(f"{written(sent)}: the scroll area is set only while no scroll is running; send 2E first")
     if sent[1] > 63 or sent[2] > 127 or sent[1] + sent[2] > registers.multiplex + 1:
-        complain(f"{_hex(sent)}: the fixed and the scrolling rows together are at most the multiplex ratio")
+        complain(f"{written(sent)}: the fixed and the scrolling rows together are at most the multiplex ratio")
     registers.scroll.top_rows, registers.scroll.scroll_rows = sent[1] & 0x3F, sent[2] & 0x7F
 
 
 def _scroll_run(registers: Registers, sent: Sequence[int], complain: Complain) -> None:
     registers.scroll.running = sent[0] == 0x2F
     if registers.scroll.running and not registers.scroll.opcode:
-        complain(f"{_hex(sent)}: a scroll is started and none was set up (26, 27, 29 or 2A)")
+        complain(f"{written(sent)}: a scroll is started and none was set up (26, 27, 29 or 2A)")
 
 
-def _command(opcode: int) -> Command:
-    for first, last, act in (
-        (0x00, 0x0F, _column_low),
-        (0x10, 0x1F, _column_high),
-        (0x40, 0x7F, _start_line),
-        (0xB0, 0xB7, _page_pointer),
-    ):
-        if first <= opcode <= last:
-            return Command(0, act)
-    return Command(0, _unknown)
-
-
-COMMANDS: dict[int, Command] = {
-    **{opcode: _command(opcode) for opcode in range(256)},
-    **{opcode: Command(1, _setting(setting)) for opcode, setting in _SETTINGS.items()},
-    **{opcode: Command(0, _flag(register, value)) for opcode, (register, value) in _FLAGS.items()},
-    **{opcode: Command(1, _relative(name)) for opcode, name in _RELATIVES.items()},
-    0x21: Command(2, _window),
-    0x22: Command(2, _window),
-    0x26: Command(6, _scroll),
-    0x27: Command(6, _scroll),
-    0x29: Command(5, _scroll),
-    0x2A: Command(5, _scroll),
-    0x2E: Command(0, _scroll_run),
-    0x2F: Command(0, _scroll_run),
-    0x8D: Command(1, _charge_pump),
-    0xA3: Command(2, _scroll_area),
-    0xAF: Command(0, _display_on),
-    0xE3: Command(0, _nothing),
-}
+COMMANDS = table(
+    "SSD1306",
+    _SETTINGS,
+    _FLAGS,
+    {
+        **dict.fromkeys(range(0x10), Command(0, _column_low)),
+        **dict.fromkeys(range(0x10, 0x20), Command(0, _column_high)),
+        **dict.fromkeys(range(0x40, 0x80), Command(0, _start_line)),
+        **dict.fromkeys(range(0xB0, 0xB8), Command(0, _page_pointer)),
+        **{opcode: Command(1, foreign("SSD1306", name)) for opcode, name in _RELATIVES.items()},
+        0x21: Command(2, _window),
+        0x22: Command(2, _window),
+        0x26: Command(6, _scroll),
+        0x27: Command(6, _scroll),
+        0x29: Command(5, _scroll),
+        0x2A: Command(5, _scroll),
+        0x2E: Command(0, _scroll_run),
+        0x2F: Command(0, _scroll_run),
+        0x8D: Command(1, _charge_pump),
+        0xA3: Command(2, _scroll_area),
+        0xAF: Command(0, _display_on),
+        0xE3: Command(0, nothing),
+    },
+)

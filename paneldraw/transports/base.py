@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import operator
 from collections.abc import Iterator
 from typing import Final, NamedTuple, Protocol
 
@@ -21,6 +22,8 @@ class Cost(NamedTuple):
     data: int
     chained: int | None = None
     """The same of a chained message; None where the transport has none."""
+    longest: int | None = None
+    """Bytes of payload that a message may have; None where there is no limit."""
 
 
 class Plan:
@@ -57,6 +60,11 @@ class Plan:
 
     def __len__(self) -> int:
         return self.count
+
+    @property
+    def longest(self) -> int:
+        """Bytes of the longest message, its kind included."""
+        return max(map(operator.sub, self.stops[: self.count], self.starts[: self.count]), default=0)
 
     def __iter__(self) -> Iterator[tuple[int, memoryview]]:
         """Yield each message's kind and payload."""

@@ -64,7 +64,8 @@ class I2CTransport:
             raise ValueError(f"address must be 0x08 to 0x77, usually 0x3C or 0x3D, not {address:#x}")
         if not 2 <= max_message <= BYTES_A_MESSAGE:
             raise ValueError(f"max_message must be 2 to {BYTES_A_MESSAGE}, not {max_message}")
-        self.cost = Cost(_FRAMING, _FRAMING, _FRAMING if max_message == BYTES_A_MESSAGE else None)
+        chained = _FRAMING if max_message == BYTES_A_MESSAGE else None  # a chained message cannot be split
+        self.cost = Cost(_FRAMING, _FRAMING, chained, max_message - 1)
         self.address = address
         self.max_message = max_message
         self._smbus2 = _smbus2()
@@ -88,11 +89,13 @@ class I2CTransport:
 
     def batch(self, plan: Plan) -> int:
         """Send a plan in as few calls as the limits allow; return the bytes on the wire."""
-        if plan.buffer.size > self.max_message:
+        if plan.buffer.size > self.max_message and plan.longest > self.max_message:
             return sum(self._write(kind, payload) for kind, payload in plan)
         messages = self._messages.of(plan)
-        for first in range(0, plan.count, MESSAGES_A_CALL):
-            self._send(messages[first : first + MESSAGES_A_CALL])
+        # An adapter that takes short messages only takes few of them a call, and nobody says how few.
+        number = MESSAGES_A_CALL if self.max_message == BYTES_A_MESSAGE else 1
+        for first in range(0, plan.count, number):
+            self._send(messages[first : first + number])
         return plan.cost
 
     def close(self) -> None:
@@ -119,7 +122,7 @@ class I2CTransport:
             done = self._rdwr(*messages)
         except OSError as error:
             raise self._translated(error) from error
-        if done is not None and 0 < done < len(messages):
+        if done is not None and done < len(messages):
             raise TransportError(errno.EIO, f"only {done} of {len(messages)} messages reached {self._where()}")
         self._answered = True
 

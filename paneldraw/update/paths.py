@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import cython
 
-EXACT = 8
+EXACT = 9
 """Up to so many places the path is the shortest there is."""
 IMPROVED = 24
 """Up to so many it is improved step by step; more are not to be asked of this module."""

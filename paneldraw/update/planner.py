@@ -1,7 +1,7 @@
 # cython: language_level=3, boundscheck=False, wraparound=False, initializedcheck=False, cdivision=True
 """From the shadow of the panel's RAM and a new frame to the cheapest plan.
 
-A *piece* is a stretch of changed bytes in one page.
+A *piece* is a stretch of changed cells in one row. Which ways there are, the controller says.
 
 **Page pointer.** A plan visits the pieces in some order. Between two of them it either sends the bytes in between, or
 begins a new data message after those of the three pointer commands that do not hold already; the pointer moves with
@@ -10,10 +10,16 @@ So every step has a length, and the cheapest plan is the shortest path through a
 `paths.EXACT` pieces. With more, pieces a byte apart are taken for one, and the path is the best found: no longer than
 page by page from left to right with every choice on the way the best one.
 
-**Windows.** Boxes are written in horizontal or vertical mode. Candidates are the bounding box; boxes grown from the
-pieces by joining those that are cheaper together; of these the ones taller than a page, with the page pointer for the
-rest; and, with no command at all, the open window onward from where its pointer stands. What holds is not sent again,
-and a window written to its end stands at its start.
+**Windows.** Boxes are written by windows that are filled across or down. Candidates are the bounding box; boxes grown
+from the pieces by joining those that are cheaper together; of these the ones taller than a row, with the page pointer
+for the rest; and, with no command at all, the open window onward from where its pointer stands. Boxes are written one
+after the other, next always the one of those at hand that costs least beyond its own cells:
+
+- Of its two commands only those go out that do not hold. A window written to its end stands at its start; and its
+  edges must be the box's only where data turns, elsewhere data need not reach them.
+- A box inside the open window may be reached through it, and one to the right of the pointer or below it may begin
+  where the pointer stands, where the cells in between are cheaper than a command.
+- The last box ends with its last changed cell. Up to `windows.TURNED` boxes are tried across and down.
 
 The plan is the cheapest of all these.
 """
@@ -28,6 +34,7 @@ import numpy as np
 from paneldraw.transports.base import Plan
 from paneldraw.update.messages import PAGE
 from paneldraw.update.paths import EXACT, IMPROVED
+from paneldraw.update.windows import MOST
 
 if cython.compiled:
     from cython.cimports.libc.string import memcmp
@@ -46,6 +53,7 @@ if TYPE_CHECKING:
 _EXACT = cython.declare(cython.int, EXACT)
 _IMPROVED = cython.declare(cython.int, IMPROVED)
 _PAGE = cython.declare(cython.int, PAGE)
+_MOST = cython.declare(cython.int, MOST)
 _FAR = cython.declare(cython.int, 1 << 24)
 _POINTER = cython.declare(cython.int, 0)
 _STREAM = cython.declare(cython.int, 1)
@@ -66,7 +74,7 @@ class Planner:
 
     Attributes
     ----------
-    fresh : (pages, width) uint8 array
+    fresh : (rows, bytes a row) uint8 array
         The frame to bring onto the panel, packed: write into it, then call `plan`.
     """
 
@@ -74,7 +82,6 @@ class Planner:
     _plan = cython.declare(object)
     _writer: Writer
     _windows: Windows
-    _with_windows: cython.bint
     _around: cython.bint
     # Bytes of a jump by its number of pointer commands, and how far it can pay to shift its ends.
     _jumps: cython.int[::1]
@@ -92,14 +99,16 @@ class Planner:
     _early: cython.int
 
     def __init__(self, controller: Controller, cost: Cost) -> None:
-        pages, width = controller.height // 8, controller.width
-        limit = pages * (width // 2 + 1) + 1
-        self._plan = Plan(pages * (width + 16) + 64, 2 * limit + 2)
+        wide, high = controller.cell
+        rows, width = controller.height // high, controller.width // wide
+        limit = rows * (width // 2 + 1) + 1
+        payload = rows * (controller.width + 16) + 64
+        messages = 8 * limit + (payload // cost.longest if cost.longest else 0)
+        self._plan = Plan(payload + messages, messages)
         self._writer = Writer(controller, cost, self._plan)
         self._pieces = np.zeros((limit, 3), np.intc)
         self._windows = Windows(self._writer, self._pieces)
-        self._with_windows = "window" in controller.addressing
-        self._around = controller.column_wraps and width == controller.ram_width
+        self._around = self._writer.wraps and controller.width == controller.ram_width
         self.fresh = np.asarray(self._writer.new)
         jumps = [cost.data] + [cost.command + commands + cost.data for commands in (1, 2, 3)]
         if controller.chained_control and cost.chained is not None:
@@ -135,9 +144,9 @@ class Planner:
         self._writer.known = False
 
     def restart(self) -> None:
-        """Note that the chip took its init: it is in page mode, and nothing else is known."""
-        self.forget()
-        self._writer.mode = _PAGE
+        """Note that the chip took its init: its mode is known, and nothing else."""
+        self._writer.restart()
+        self._writer.known = False
 
     # -- What changed
 
@@ -145,60 +154,57 @@ class Planner:
     def _find_pieces(self) -> cython.int:
         """Find the pieces, apart where the pointer stands; return how many bytes changed."""
         w: Writer = self._writer
-        new: cython.uchar[:, ::1] = w.new
-        old: cython.uchar[:, ::1] = w.old
-        width: cython.int = w.width
+        new: cython.uchar[::1]
+        old: cython.uchar[::1]
         known: cython.bint = w.known
-        page: cython.int
-        column: cython.int
+        size: cython.Py_ssize_t = w.cell_bytes
+        row: cython.int
+        column: cython.Py_ssize_t
         pointer: cython.int
         start: cython.int
+        differ: cython.int
+        i: cython.Py_ssize_t
         changed: cython.int = 0
         self._count = 0
-        for page in range(new.shape[0]):
-            if known and self._same(page):
+        for row in range(w.height):
+            if known and self._same(row):
                 continue
-            pointer = w.column - w.left if page + w.top == w.page else -1
+            pointer = w.column - w.left if row + w.top == w.row else -1
             start = -1
-            for column in range(width):
-                if known and new[page, column] == old[page, column]:
-                    if start >= 0:
-                        self._add_piece(page, start, column)
-                    start = -1
-                    continue
-                changed += 1
-                if start < 0:
+            new, old = w.new[row], w.old[row]
+            for column in range(w.width):
+                differ = not known or new[size * column] != old[size * column]
+                for i in range(size * column + 1, size * (column + 1)):
+                    differ += not known or new[i] != old[i]
+                changed += differ
+                if differ > 0 and start < 0:
                     start = column
-                elif column == pointer:
-                    self._add_piece(page, start, column)
-                    start = column
+                elif start >= 0 and (differ == 0 or column == pointer):
+                    self._add_piece(row, start, column)
+                    start = column if differ > 0 else -1
             if start >= 0:
-                self._add_piece(page, start, width)
-        if self._count > _EXACT:
-            self._merge(1)
-        if self._count > _IMPROVED:
-            self._merge(self._jumps[1])
+                self._add_piece(row, start, w.width)
         return changed
 
     @cython.cfunc
-    def _add_piece(self, page: cython.int, start: cython.int, stop: cython.int) -> cython.void:
+    def _add_piece(self, row: cython.int, start: cython.int, stop: cython.int) -> cython.void:
         w: Writer = self._writer
-        self._pieces[self._count, 0] = page + w.top
+        self._pieces[self._count, 0] = row + w.top
         self._pieces[self._count, 1] = start + w.left
         self._pieces[self._count, 2] = stop + w.left
         self._count += 1
 
     @cython.cfunc
-    def _same(self, page: cython.Py_ssize_t) -> cython.bint:
-        """Whether nothing changed in a page."""
+    def _same(self, row: cython.Py_ssize_t) -> cython.bint:
+        """Whether nothing changed in a row."""
         w: Writer = self._writer
         if cython.compiled:
-            return memcmp(cython.address(w.new[page, 0]), cython.address(w.old[page, 0]), w.new.shape[1]) == 0
-        return bytes(w.new[page]) == bytes(w.old[page])
+            return memcmp(cython.address(w.new[row, 0]), cython.address(w.old[row, 0]), w.new.shape[1]) == 0
+        return bytes(w.new[row]) == bytes(w.old[row])
 
     @cython.cfunc
     def _merge(self, gap: cython.int) -> cython.void:
-        """Make one piece of neighbors in a page with no more than `gap` bytes between them."""
+        """Make one piece of neighbors in a row with no more than `gap` cells between them."""
         piece: cython.int
         last: cython.int = 0
         for piece in range(1, self._count):
@@ -219,17 +225,25 @@ class Planner:
     @cython.cfunc
     def _choose(self) -> cython.void:
         """Write the cheapest plan for the pieces."""
-        best: cython.int = self._solve()
-        # The first frame goes by page pointer too: small updates follow it more often than windows.
-        if not self._with_windows or not self._writer.known or (self._count == 1 and self._writer.mode == _PAGE):
-            self._write_path(self._order, self._count)
-            return
+        w: Writer = self._writer
         windows: Windows = self._windows
         way: cython.int = _POINTER
+        best: cython.int = _FAR
+        cost: cython.int
+        if w.has_pointer:
+            best = self._solve()
+            # The first frame goes by page pointer too: small updates follow it more often than windows.
+            if not w.has_window or not w.known or (self._count == 1 and w.mode == _PAGE):
+                self._write_path(self._order, self._count)
+                return
+        elif self._count > _MOST:
+            self._merge(self._jumps[0])
         stream: cython.int = windows.stream(self._count)
-        if stream > 0 and self._jumps[0] + stream < best:
-            best, way = self._jumps[0] + stream, _STREAM
-        cost: cython.int = windows.cost(windows.bounding(self._count))
+        if stream > 0:
+            cost = windows.stream_cost(stream)
+            if cost < best:
+                best, way = cost, _STREAM
+        cost = windows.cost(windows.bounding(self._count))
         if cost < best:
             best, way = cost, _BOUNDING
         grown: cython.int = windows.grown(self._count)
@@ -237,21 +251,23 @@ class Planner:
             cost = windows.cost(grown)
             if cost < best:
                 best, way = cost, _GROWN
-        tall: cython.int = windows.tall_first(grown)
-        flat: cython.int = self._outside(tall)
+        tall: cython.int = windows.tall_first(grown) if w.has_pointer else 0
+        flat: cython.int = self._outside(tall) if tall > 0 else 0
         if 0 < flat < self._count:
             cost = windows.cost(tall) + self._path_cost(self._rest, flat)
             if cost < best:
                 best, way = cost, _MIXED
-        if way == _POINTER:
-            self._write_path(self._order, self._count)
-        elif way == _STREAM:
-            self._writer.cells(stream)
-            self._writer.finish()
+        if way == _STREAM:
+            w.cells(stream)
+            w.finish()
+        elif way == _BOUNDING:
+            windows.write(windows.bounding(self._count))
+        elif way == _GROWN:
+            windows.write(grown)
         elif way == _MIXED:
             self._write_mixed(tall, flat)
         else:
-            windows.write(grown if way == _GROWN else windows.bounding(self._count))
+            self._write_path(self._order, self._count)
 
     @cython.cfunc
     def _outside(self, boxes: cython.int) -> cython.int:
@@ -285,13 +301,13 @@ class Planner:
         return column - self._writer.ram_width if self._writer.wraps else -1
 
     @cython.cfunc
-    def _step(self, page: cython.int, column: cython.int, room: cython.int, piece: cython.int) -> cython.int:
+    def _step(self, row: cython.int, column: cython.int, room: cython.int, piece: cython.int) -> cython.int:
         """Bytes from a place to the start of a piece.
 
         `room` bytes may be sent first to drive the pointer further; -1 stands for the start of a plan.
         """
         w: Writer = self._writer
-        to_page: cython.int = self._pieces[piece, 0]
+        to_row: cython.int = self._pieces[piece, 0]
         to_column: cython.int = self._pieces[piece, 1]
         gap: cython.int = to_column - column
         best: cython.int = _FAR
@@ -299,7 +315,7 @@ class Planner:
         late: cython.int
         early: cython.int
         first: cython.int
-        if page == to_page and column >= w.left:
+        if row == to_row and column >= w.left:
             if gap < 0 and self._around:
                 gap += w.width
             if gap >= 0:
@@ -311,7 +327,7 @@ class Planner:
                     if not self._around:
                         break
                     first += w.width
-                cost = self._jumps[w.pointer_commands(page, self._after(column, late), to_page, first)] + late + early
+                cost = self._jumps[w.pointer_commands(row, self._after(column, late), to_row, first)] + late + early
                 if cost < best:
                     best, self._bridge, self._late, self._early = cost, -1, late, early
                     if cost <= self._jumps[1]:
@@ -332,8 +348,8 @@ class Planner:
         w: Writer = self._writer
         if w.mode != _PAGE:
             self._bridge, self._late, self._early = -1, 0, 0
-            return w.command_cost + 5 + w.data_cost
-        return self._step(w.page, w.column, -1, piece)
+            return w.command_cost + w.mode_length(_PAGE) + 3 + w.data_cost
+        return self._step(w.row, w.column, -1, piece)
 
     # -- The path
 
@@ -342,6 +358,10 @@ class Planner:
         """Put the pieces into the best order there is time to find; return the bytes of the path."""
         i: cython.int
         j: cython.int
+        if self._count > _EXACT:
+            self._merge(1)
+        if self._count > _IMPROVED:
+            self._merge(self._jumps[1])
         for i in range(self._count):
             self._order[i] = i
         if 1 < self._count <= _IMPROVED:

@@ -13,7 +13,7 @@ from pathlib import Path
 import measure
 
 HERE = Path(__file__).parent
-GROUPS = sorted(path.stem for path in HERE.glob("*.py") if path.stem not in ("run", "measure"))
+GROUPS = sorted(path.stem for path in HERE.glob("*.py") if path.stem not in ("run", "measure", "peers"))
 
 
 def main() -> None:

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-import importlib.util
 import itertools
+from collections.abc import Callable
 from statistics import mean
 from typing import Any
 
 import measure
 import numpy as np
 import numpy.typing as npt
+import peers
+import smbus2
 
 from paneldraw import Framebuffer, Panel, simulator
 from paneldraw.controllers import SSD1306
@@ -23,6 +25,7 @@ WINDOW = FRAMING + 6 + FRAMING
 RUN = FRAMING + 3 + FRAMING
 
 Packed = npt.NDArray[np.bool_]
+Show = Callable[[Framebuffer, peers.Mask], object]
 
 
 def frames(scene: Scene, count: int) -> list[Framebuffer]:
@@ -37,6 +40,11 @@ def changes(before: Framebuffer, after: Framebuffer) -> Packed:
     """Which bytes of the panel's RAM differ: (pages, columns)."""
     differ: Packed = (before.pixels != after.pixels).reshape(HEIGHT // 8, 8, WIDTH).any(axis=1)
     return differ
+
+
+def full(changed: Packed) -> int:
+    """Bytes of one window of all there is."""
+    return WINDOW + changed.size
 
 
 def box(changed: Packed) -> int:
@@ -56,63 +64,85 @@ def page_runs(changed: Packed) -> int:
     return total
 
 
-def bus() -> simulator.I2CBus:
-    """A bus with a panel, which counts its bytes."""
-    return simulator.I2CBus({0x3C: simulator.SSD1306(WIDTH, HEIGHT, history=1)}, timer=None)
+class Panels:
+    """Pictures brought onto a simulated panel, which must show each; counts bytes from the second on."""
+
+    def __init__(self) -> None:
+        self.chip = simulator.SSD1306(WIDTH, HEIGHT, history=1)
+        self.bus = simulator.I2CBus({peers.ADDRESS: self.chip}, timer=None)
+
+    def write(self, address: int, data: Any) -> None:
+        """Write as ``busio.I2C`` does."""
+        self.bus.i2c_rdwr(smbus2.i2c_msg.write(address, bytes(data)))
+
+    def count(self, show: Show, pictures: list[Framebuffer]) -> int:
+        """Bytes that a driver sends; `show` takes a picture and which of its pixels differ from the one before."""
+        shown = np.zeros((HEIGHT, WIDTH), np.uint8)
+        start = 0
+        for number, picture in enumerate(pictures):
+            show(picture, picture.pixels != shown)
+            shown = picture.pixels
+            if not np.array_equal(self.chip.pixels, shown):
+                raise RuntimeError(f"the panel shows something else than picture {number}")
+            start = start or self.bus.bytes
+        return self.bus.bytes - start
 
 
-def ours(pictures: list[Framebuffer]) -> int:
-    """Bytes that paneldraw sends; the panel must show each picture."""
-    wire = bus()
-    with Panel(SSD1306(WIDTH, HEIGHT), I2CTransport(wire)) as panel:
-        panel.show(pictures[0])
-        start = wire.bytes
-        for picture in pictures[1:]:
-            panel.show(picture)
-            if not np.array_equal(wire.devices[0x3C].pixels, picture.pixels):  # type: ignore[attr-defined]
-                raise RuntimeError("the panel shows another picture")
-        return wire.bytes - start
+def ours(panel: Panels) -> Show:
+    """paneldraw."""
+    show = Panel(SSD1306(WIDTH, HEIGHT), I2CTransport(panel.bus)).show
+    return lambda picture, changed: show(picture)
 
 
-def luma(pictures: list[Framebuffer]) -> int:
-    """Bytes that luma.oled sends; it writes whole messages only on a bus that it opened itself."""
-    import smbus2
-    from luma.core.interface.serial import i2c
-    from luma.oled.device import ssd1306
+def luma(panel: Panels) -> Show:
+    """luma.oled, whole frames."""
+    device = peers.luma(panel.bus)
+    return lambda picture, changed: device.display(picture.to_image().convert("1"))
 
-    wire = bus()
-    real: Any = smbus2.SMBus
-    smbus2.SMBus = lambda number: wire
+
+def adafruit(panel: Panels) -> Show:
+    """Adafruit's driver, whole frames."""
+    device = peers.adafruit(panel.write)
+    return lambda picture, changed: peers.draw(device, picture.pixels, changed)
+
+
+def displayio(panel: Panels) -> Show:
+    """displayio, rectangles around what the script set: here, no more than what changed."""
+    device = peers.Displayio(panel.write)
+    return lambda picture, changed: peers.draw(device, picture.pixels, changed)
+
+
+DRIVERS = {"ours": ours, "luma.oled": luma, "Adafruit": adafruit, "displayio": displayio}
+RULES = {"full frame": full, "box": box, "page runs": page_runs}
+
+
+def there(name: str) -> bool:
+    """Whether a driver can be imported; says so if not."""
     try:
-        device = ssd1306(i2c(port=1), WIDTH, HEIGHT)
-    finally:
-        smbus2.SMBus = real
-    device.persist = True
-    start = wire.bytes
-    for picture in pictures[1:]:
-        device.display(picture.to_image().convert("1"))
-    return wire.bytes - start
+        DRIVERS[name](Panels())
+    except ImportError as error:
+        print(f"  without {name}: {error}; pip install -e '.[bench]' brings it")
+        return False
+    return True
 
 
 def run(rounds: int) -> None:
     """Print the table; bytes are the same in every round."""
     count = FRAMES if measure.SAMPLE else 4
-    there = importlib.util.find_spec("luma.oled") if importlib.util.find_spec("luma") else None
-    if not there:
-        print("  without luma.oled; pip install -e '.[bench]' brings it")
-    peers = ["luma.oled", "box", "page runs"]
-    print(f"  {'':12}{'ours':>9}" + "".join(f"{peer:>12}" for peer in peers))
-    rows: list[list[float]] = []
+    drivers = [name for name in DRIVERS if there(name)]
+    names = [*drivers, *RULES]
+    print(f"  {'':12}" + "".join(f"{name:>11}" for name in names))
+    table = []
     above = []
-    for name, scene in SCENES.items():
-        pictures = frames(scene, count)
+    for scene, draw in SCENES.items():
+        pictures = frames(draw, count)
         steps = [changes(*pair) for pair in itertools.pairwise(pictures)]
-        full = luma(pictures) if there else float("nan")
-        sums = [ours(pictures), full, sum(map(box, steps)), sum(map(page_runs, steps))]
-        rows.append([one / count for one in sums])
-        above += [f"{peer} in {name}" for peer, one in zip(peers, sums[1:], strict=True) if sums[0] > one]
-        print_row(name, rows[-1])
-    means = [mean(column) for column in zip(*rows, strict=True)]
+        sums = [panel.count(DRIVERS[name](panel), pictures) for name in drivers for panel in (Panels(),)]
+        sums += [sum(map(rule, steps)) for rule in RULES.values()]
+        above += [f"{name} in {scene}" for name, one in zip(names, sums, strict=True) if sums[0] > one]
+        table.append([one / count for one in sums])
+        print_row(scene, table[-1])
+    means = [mean(column) for column in zip(*table, strict=True)]
     print_row("mean", means)
     verdict = "below" if means[0] < WANTED else "NOT below"
     share = means[0] / means[-1]
@@ -121,4 +151,4 @@ def run(rounds: int) -> None:
 
 def print_row(name: str, values: list[float]) -> None:
     """Print a scene's bytes a frame."""
-    print(f"  {name:12}{values[0]:9.1f}" + "".join(f"{value:12.1f}" for value in values[1:]), flush=True)
+    print(f"  {name:12}" + "".join(f"{value:11.1f}" for value in values), flush=True)

@@ -6,35 +6,44 @@ import random
 from typing import Any
 
 import numpy as np
+import peers
 from measure import Against, Contest, Names, Row
+from peers import HEIGHT, WIDTH
 
 from paneldraw import Framebuffer, Panel
 from paneldraw.controllers import SSD1306
 from paneldraw.transports import I2CTransport
 
-WIDTH, HEIGHT = 128, 64
 LUMA = "luma.oled"
 ADAFRUIT = "Adafruit"
+DISPLAYIO = "displayio"
 
 
-def row(name: str, one: str, other: str, over_luma: float | None, over_adafruit: float | None = None) -> Row:
+def row(
+    name: str, one: str, other: str, over_luma: float, over_adafruit: float | None = None, displayio: str = ""
+) -> Row:
     """Show two pictures in turn. What Adafruit's `show` sends is its own buffer, whatever is in it."""
-    return Row(
-        name,
-        2,
-        f"show({one}); show({other})",
-        (
-            Against(LUMA, f"display({one}_image); display({other}_image)", over_luma),
-            Against(ADAFRUIT, "show(); show()", over_adafruit),
-        ),
-    )
+    against = [
+        Against(LUMA, f"display({one}_image); display({other}_image)", over_luma),
+        Against(ADAFRUIT, "show(); show()", over_adafruit),
+    ]
+    if displayio:
+        against.append(Against(DISPLAYIO, displayio))
+    return Row(name, 2, f"show({one}); show({other})", tuple(against))
 
 
 ROWS = [
-    row("every pixel changed", "noise", "inverse", 10),
+    row("every pixel changed", "noise", "inverse", 20, displayio="dirty(); show(); dirty(); show()"),
     row("another picture", "lines", "circles", 10),
-    row("one pixel changed", "lines", "lines_and_a_pixel", 20, 1 / 1.4),
-    row("nothing changed", "lines", "lines", 20),
+    row(
+        "one pixel changed",
+        "lines",
+        "lines_and_a_pixel",
+        20,
+        1 / 1.4,
+        displayio="pixel(64, 32, 1); show(); pixel(64, 32, 0); show()",
+    ),
+    row("nothing changed", "lines", "lines", 20, displayio="show(); show()"),
 ]
 
 
@@ -56,9 +65,6 @@ def pictures() -> dict[str, Framebuffer]:
 class Forgetful:
     """A bus that takes every message, with as much of smbus2's interface as the drivers use."""
 
-    def __init__(self, number: int = 1) -> None:
-        """The number is luma's to give."""
-
     def i2c_rdwr(self, *messages: Any) -> None:
         """Take messages."""
 
@@ -75,24 +81,13 @@ def names() -> Names:
 
 
 def luma() -> Names:
-    """Opens its bus itself, as it writes whole messages only then; pictures as Pillow's, which it wants."""
-    import smbus2
-    from luma.core.interface.serial import i2c
-    from luma.oled.device import ssd1306
-
-    real = smbus2.SMBus
-    smbus2.SMBus = Forgetful
-    try:
-        device = ssd1306(i2c(port=1), WIDTH, HEIGHT)
-    finally:
-        smbus2.SMBus = real
-    device.persist = True
-    return {"display": device.display} | {f"{name}_image": fb.to_image() for name, fb in pictures().items()}
+    """It wants pictures as Pillow's."""
+    shown = {f"{name}_image": fb.to_image() for name, fb in pictures().items()}
+    return {"display": peers.luma(Forgetful()).display, **shown}
 
 
-def adafruit() -> Names:
-    """Sends its own buffer through the layers that Blinka has on Linux, down to the write to the bus's file."""
-    import adafruit_ssd1306
+def linux_write() -> peers.Write:
+    """What a write costs below ``busio.I2C`` on Linux: Blinka's layers down to the bus's file."""
     from Adafruit_PureIO import smbus
 
     class File:
@@ -106,25 +101,25 @@ def adafruit() -> Names:
         def _select_device(self, address: int) -> None:
             """Spare the system call, as the write spares it."""
 
-    class Wire:
-        def __init__(self) -> None:
-            self.bus = Bus()
-            self.bus._device = File()
+    bus = Bus()
+    bus._device = File()
+    return bus.write_bytes  # type: ignore[no-any-return]
 
-        def try_lock(self) -> bool:
-            return True
 
-        def unlock(self) -> None:
-            """Nobody else asks."""
+def adafruit() -> Names:
+    """Sends its own buffer."""
+    return {"show": peers.adafruit(linux_write()).show}
 
-        def writeto(self, address: int, buffer: Any, *, start: int = 0, end: int | None = None) -> None:
-            self.bus.write_bytes(address, memoryview(buffer)[start:end])
 
-    return {"show": adafruit_ssd1306.SSD1306_I2C(WIDTH, HEIGHT, Wire()).show}
+def displayio() -> Names:
+    """One pixel is set to one level and the other; for all pixels a whole bitmap is declared dirty."""
+    device = peers.Displayio(linux_write())
+    device.show()
+    return {"pixel": device.pixel, "dirty": device.bitmap.dirty, "show": device.show}
 
 
 def run(rounds: int) -> None:
     """Print the group's rows."""
-    contest = Contest(names(), {LUMA: luma, ADAFRUIT: adafruit}, rounds)
+    contest = Contest(names(), {LUMA: luma, ADAFRUIT: adafruit, DISPLAYIO: displayio}, rounds)
     for contest_row in ROWS:
         contest.run(contest_row)

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
-LEVELS = hnp.arrays(np.uint8, st.tuples(st.sampled_from([8, 16, 40]), st.integers(1, 40)), elements=st.integers(0, 15))
+LEVELS = hnp.arrays(np.uint8, st.tuples(st.sampled_from([8, 16, 40]), st.integers(1, 40)))
 VIEWS = {
     "plain": lambda a: a,
     "turned half": lambda a: a[::-1, ::-1],
@@ -16,14 +16,28 @@ VIEWS = {
 }
 
 
-@given(levels=LEVELS, view=st.sampled_from(sorted(VIEWS)), threshold=st.integers(0, 15))
-def test_a_byte_is_eight_rows_the_topmost_lowest(package, levels, view, threshold):
+@given(levels=LEVELS, view=st.sampled_from(sorted(VIEWS)), max_level=st.sampled_from([1, 3, 15, 255]))
+def test_a_byte_is_eight_rows_the_topmost_lowest(package, levels, view, max_level):
     packing = importlib.import_module("paneldraw.controllers.packing")
-    levels = VIEWS[view](levels)
+    levels = np.minimum(VIEWS[view](levels), max_level)
     height, width = levels.shape
     packed = np.full((height // 8, width), 0xA5, np.uint8)
-    packing.pack_pages(levels, threshold, packed)
+    packing.pack_pages(levels, max_level, packed)
     for page in range(height // 8):
         for x in range(width):
-            column = [int(levels[8 * page + row, x] > threshold) << row for row in range(8)]
+            column = [int(2 * int(levels[8 * page + row, x]) > max_level) << row for row in range(8)]
             assert packed[page, x] == sum(column)
+
+
+@given(levels=LEVELS, view=st.sampled_from(sorted(VIEWS)), max_level=st.sampled_from([1, 3, 15, 255]))
+def test_a_byte_is_two_pixels_the_left_one_above(package, levels, view, max_level):
+    packing = importlib.import_module("paneldraw.controllers.packing")
+    levels = np.minimum(VIEWS[view](levels), max_level)
+    levels = levels[:, : levels.shape[1] & ~1]
+    height, width = levels.shape
+    packed = np.full((height, width // 2), 0xA5, np.uint8)
+    packing.pack_nibbles(levels, max_level, packed)
+    for y in range(height):
+        for x in range(0, width, 2):
+            left, right = (round(int(level) * 15 / max_level) for level in levels[y, x : x + 2])
+            assert packed[y, x // 2] == 16 * left + right
