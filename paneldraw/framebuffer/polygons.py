@@ -184,7 +184,7 @@ class Polygons(Lines):
         if corners.exact is not None:
             corners = Points("coords", cut_polygon(corners.exact), False)
         end[0] = corners.count
-        self._fill_contours(corners.values, end, 1, nonzero, antialias)
+        self._fill_contours(corners.values, end, 1, nonzero, antialias, 256)
 
     @cython.cfunc
     def _outline(
