@@ -384,3 +384,21 @@ def cone_look_ups() -> str:
     ]
     total = volumes[0] - volumes[1] - volumes[2] + volumes[3]
     return table("|look-up|at|value", [*rows, ("=", "volume", "", f"{total:.4f}")])
+
+
+def filtered_edges() -> str:
+    """The segments that reach pixel (1, 1), what is to the right of each, and their sum."""
+    filtered, fb = plain()["filtered"], plain()["Framebuffer"](5, 5, 4)
+    cone = plain()["cone"].ConeFilter()
+    seen = watch(
+        filtered._add,
+        "volume *= sign",
+        lambda: fb.poly(0, 0, [0, 0, 4, 1, 1, 4], fill=True, antialias=cone),
+    )
+    rows, total = [], 0.0
+    for at in seen:
+        if (at["x"], at["y"]) == (1, 1):
+            start, stop = (f"({at[x]:g}, {at[y] + 1:g})" for x, y in (("start", "ay"), ("stop", "by")))
+            total += at["sign"] * at["volume"]
+            rows.append(("+" if at["sign"] > 0 else "-", start, stop, f"{at['d']:.3f}", f"{at['volume']:.4f}"))
+    return table("|from|to|d|volume to the right", [*rows, ("=", "", "", "", f"{total:.4f}")]) + panel(fb)
