@@ -39,9 +39,6 @@ _NEARBY = 5 * 256
 # Filters take contours in 1 / FINENESS of a 256th.
 FINENESS = 8
 
-# And with chords that are up to this from the curve, in radii: to either side of it, which the filter evens out.
-DEVIATION = 0.01
-
 
 @cython.cclass
 class Paths:
@@ -130,7 +127,7 @@ class Paths:
         """A path of any width, its points and lengths in 256ths of a pixel, as one shape."""
         if isinstance(antialias, ConeFilter):
             cone: ConeFilter = antialias
-            contours = Contours(FINENESS, 256 * cone.radius * DEVIATION)
+            contours = Contours(FINENESS, 256 * cone.radius)
         else:
             contours = Contours()
         width = min(width, FIXED_REACH * 256)

@@ -10,7 +10,7 @@ import cython
 
 from paneldraw.framebuffer.angles import direction, is_reflex
 from paneldraw.framebuffer.arguments import as_samples
-from paneldraw.framebuffer.paths import DEVIATION, FINENESS
+from paneldraw.framebuffer.paths import FINENESS
 from paneldraw.raster.curves import end_of_radius
 from paneldraw.raster.cuts import UNIT, quadrants_far, sector_outline_far, wedge_far
 from paneldraw.raster.round_contours import HalfPlane, add_band_far
@@ -173,7 +173,7 @@ class Rounds(Polygons):
         cone: ConeFilter,
     ) -> Any:
         """As `_band`, by way of its contours."""
-        contours = Contours(FINENESS, 256 * cone.radius * DEVIATION)
+        contours = Contours(FINENESS, 256 * cone.radius)
         surface: Surface = self.surface
         unit: cython.int = 256 * FINENESS
         # What a filter of any radius can reach.

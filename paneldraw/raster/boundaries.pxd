@@ -1,3 +1,6 @@
+cimport cython
+
+@cython.final
 cdef class Boundary:
     cdef object kept_segments, kept_edges
     cdef char *room

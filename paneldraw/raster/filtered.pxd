@@ -1,6 +1,8 @@
+cimport cython
 from paneldraw.raster.cone cimport ConeFilter
 from paneldraw.raster.surface cimport Surface
 
+@cython.final
 cdef class Volumes:
     cdef object kept, kept_sides
     cdef double radius, scale

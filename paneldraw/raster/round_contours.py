@@ -13,10 +13,10 @@ from typing import Any
 import cython
 
 if cython.compiled:
-    from cython.cimports.libc.math import acos, ceil, cos, rint, sin, sqrt
+    from cython.cimports.libc.math import ceil, cos, rint, sin, sqrt
     from cython.cimports.paneldraw.raster.strokes import Contours
 else:
-    from math import acos, ceil, cos, sin, sqrt
+    from math import ceil, cos, sin, sqrt
 
     from paneldraw.raster.strokes import Contours
 
@@ -95,7 +95,7 @@ def _finish(contours: Contours, corners: Any, planes: Any) -> Any:
 def _ring(contours: Contours, curve: Any) -> Any:
     """Add the points of a curve, clockwise as the screen shows it, such that its chords enclose the area that it does.
 
-    The ends of each quarter are on the curve, the points between them on one slightly larger.
+    The points are on a slightly larger curve; not so the ends of quarters between which there are straight sides.
     """
     left: cython.longlong
     top: cython.longlong
@@ -104,17 +104,18 @@ def _ring(contours: Contours, curve: Any) -> Any:
     a: cython.double
     b: cython.double
     left, top, right, bottom, a, b = curve
-    deviation: cython.double = contours.deviation * contours.fineness
     steps: cython.int = 1
     if a > 0 and b > 0:
-        steps = cython.cast(cython.int, ceil(_QUARTER / (2 * acos(max(0.5, 1 - deviation / max(a, b))))))
+        steps = cython.cast(cython.int, ceil(_QUARTER / _step(a, b, contours.radius * contours.fineness)))
     quarter: cython.int
     i: cython.int
     step: cython.double = _QUARTER / steps
+    between: cython.double = sqrt(step / sin(step))
     outward: cython.double
+    round: cython.bint = left == right and top == bottom
     for quarter in range(4):
         for i in range(steps + 1):
-            outward = 1 if i == 0 or i == steps else sqrt(step / sin(step))
+            outward = between if round or 0 < i < steps else 1
             x: cython.double = cos(i * step) * outward
             y: cython.double = sin(i * step) * outward
             if quarter & 1:
@@ -125,6 +126,18 @@ def _ring(contours: Contours, curve: Any) -> Any:
                 (right if quarter == 0 or quarter == 3 else left) + cython.cast(cython.longlong, rint(a * x)),
                 (bottom if quarter < 2 else top) + cython.cast(cython.longlong, rint(b * y)),
             )
+
+
+@cython.cfunc
+def _step(a: cython.double, b: cython.double, radius: cython.double) -> cython.double:
+    """The angle of chords such that a filter evens them out: it may be the further from the curve, the shorter it is.
+
+    Where an ellipse is flat chords are long, and min(a, b) * step**2 / 8 from it; at its ends they are short, and
+    max(a, b) * step**2 / 8.
+    """
+    flat: cython.double = min(a, b)
+    deviation: cython.double = radius * min(max(0.25 * radius / flat, 0.01), 0.0125)
+    return min(1.0, sqrt(8 * min(deviation / flat, 0.025 * radius / max(a, b))))
 
 
 # -- The same of any size and place, in Python's integers: what is in sight is followed closely, what is far out is left

@@ -4,7 +4,7 @@ cdef class Contours:
     cdef Py_ssize_t *ends
     cdef Py_ssize_t capacity, room_for_ends, count, contours
     cdef int fineness
-    cdef double deviation
+    cdef double radius
 
     cdef object add(self, double x, double y)
     cdef object add_whole(self, long long x, long long y)
