@@ -1,9 +1,8 @@
 # cython: language_level=3, boundscheck=False, wraparound=False, cdivision=True
 """Anti-aliasing by filtering: each pixel's area of influence is a circle, on which a cone of volume 1 stands.
 
-The coverage of a pixel is the volume above the shape. The cone looks the same from every
-side, so one table serves lines of all angles and widths, their ends included. Other shapes are filled by
-`paneldraw.raster.filtered`.
+The coverage of a pixel is the volume above the shape. The cone looks the same from every side, so one table serves
+lines of all angles and widths, their ends included. Other shapes are filled by `paneldraw.raster.filtered`.
 """
 
 from __future__ import annotations
