@@ -65,7 +65,9 @@ def excerpt(file: str, name: str, shown: str) -> str:
 @cache
 def plain() -> dict[str, Any]:
     """The modules that are compiled otherwise, as plain Python, by the last part of their names in raster."""
-    compiled = {name: sys.modules.pop(name) for name in MODULES if name in sys.modules}
+    for name in MODULES:
+        importlib.import_module(name)
+    compiled = {name: sys.modules.pop(name) for name in MODULES}
     try:
         load_sources()
         loaded = {name: sys.modules[name] for name in MODULES}
@@ -384,3 +386,21 @@ def cone_look_ups() -> str:
     ]
     total = volumes[0] - volumes[1] - volumes[2] + volumes[3]
     return table("|look-up|at|value", [*rows, ("=", "volume", "", f"{total:.4f}")])
+
+
+def filtered_edges() -> str:
+    """The segments that reach pixel (1, 1), what is to the right of each, and their sum."""
+    filtered, fb = plain()["filtered"], plain()["Framebuffer"](5, 5, 4)
+    cone = plain()["cone"].ConeFilter()
+    seen = watch(
+        filtered._add,
+        "volume *= sign",
+        lambda: fb.poly(0, 0, [0, 0, 4, 1, 1, 4], fill=True, antialias=cone),
+    )
+    rows, total = [], 0.0
+    for at in seen:
+        if (at["x"], at["y"]) == (1, 1):
+            start, stop = (f"({at[x]:g}, {at[y] + 1:g})" for x, y in (("start", "ay"), ("stop", "by")))
+            total += at["sign"] * at["volume"]
+            rows.append(("+" if at["sign"] > 0 else "-", start, stop, f"{at['d']:.3f}", f"{at['volume']:.4f}"))
+    return table("|from|to|d|volume to the right", [*rows, ("=", "", "", "", f"{total:.4f}")]) + panel(fb)

@@ -14,8 +14,6 @@ from cython.cimports.cpython.long import PyLong_AsLongLongAndOverflow
 from cython.cimports.cpython.memoryview import PyMemoryView_GET_BUFFER
 from numpy.typing import NDArray
 
-from paneldraw.raster.cone import SAMPLES
-
 if cython.compiled:
     from cython.cimports.paneldraw.raster._floors import floored
 else:  # classes cimported in the .pxd, which leaves a user's type checker these
@@ -47,7 +45,6 @@ FIXED_REACH = cython.declare(cython.longlong, 1 << 18)
 _ENDLESS = 1 << 100
 
 ALIASED = Supersample(1)
-_WEIGHED = Supersample(SAMPLES)
 
 
 @cython.cfunc
@@ -255,11 +252,9 @@ def not_negative(name: str, number: int) -> int:
 
 
 def as_samples(antialias: Any) -> Supersample:
-    """A call's anti-aliasing as the samples to take: None is one a pixel, and a filter weighs 16 x 16."""
-    if antialias is None:
+    """A call's anti-aliasing as the samples to take: one a pixel for None and for a filter, which takes none."""
+    if antialias is None or isinstance(antialias, ConeFilter):
         return ALIASED
-    if isinstance(antialias, ConeFilter):
-        return _WEIGHED
     if not isinstance(antialias, Supersample):
         raise TypeError(
             f"antialias must be None, a Supersample, such as Supersample(4), or a ConeFilter, not {antialias!r}"

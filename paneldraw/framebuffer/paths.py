@@ -16,6 +16,7 @@ from paneldraw.raster.surface import OPS
 if cython.compiled:
     from cython.cimports.paneldraw.framebuffer.arguments import FAR, FIXED_REACH, Points, pointer_to_int64, quick
     from cython.cimports.paneldraw.raster.cone import ConeFilter
+    from cython.cimports.paneldraw.raster.filtered import fill
     from cython.cimports.paneldraw.raster.lines import far
     from cython.cimports.paneldraw.raster.outlines import Polyline
     from cython.cimports.paneldraw.raster.polygons import polygons
@@ -24,6 +25,7 @@ if cython.compiled:
 else:
     from paneldraw.framebuffer.arguments import FAR, FIXED_REACH, Points, pointer_to_int64, quick
     from paneldraw.raster.cone import ConeFilter
+    from paneldraw.raster.filtered import fill
     from paneldraw.raster.lines import far
     from paneldraw.raster.outlines import Polyline
     from paneldraw.raster.polygons import polygons
@@ -33,6 +35,9 @@ else:
 
 # In 256ths of a pixel.
 _NEARBY = 5 * 256
+
+# Filters take contours in 1 / FINENESS of a 256th.
+FINENESS = 8
 
 
 @cython.cclass
@@ -64,23 +69,6 @@ class Paths:
         if not 0 <= level <= self.surface.max_level:
             raise ValueError(f"c must be a level from 0 to {self.surface.max_level}, not {c}")
         return level
-
-    @cython.cfunc
-    def _begin(self, antialias: Any) -> Supersample:
-        """Prepare to paint a shape with this anti-aliasing; returns the samples to take. `_end` must follow."""
-        if antialias is None:
-            return ALIASED
-        samples = as_samples(antialias)
-        if isinstance(antialias, ConeFilter):
-            cone: ConeFilter = antialias
-            cone.begin(self.surface)
-        return samples
-
-    @cython.cfunc
-    def _end(self) -> Any:
-        """Paint what a filter has gathered since `_begin`."""
-        if self.surface.weighing:
-            self.surface.finish_weighing()
 
     @cython.cfunc
     def _block(self, x: Any, y: Any, w: Any, h: Any) -> Any:
@@ -137,7 +125,11 @@ class Paths:
         antialias: Any,
     ) -> Any:
         """A path of any width, its points and lengths in 256ths of a pixel, as one shape."""
-        contours = Contours()
+        if isinstance(antialias, ConeFilter):
+            cone: ConeFilter = antialias
+            contours = Contours(FINENESS, 256 * cone.radius)
+        else:
+            contours = Contours()
         width = min(width, FIXED_REACH * 256)
         if path.exact is None:
             self._add_stroke(contours, path, closed, width, cap, join, dash, 0)
@@ -145,7 +137,8 @@ class Paths:
             for piece, distance in cut_path(path.exact, closed, bool(dash)):
                 shape = 0 if closed else cap
                 self._add_stroke(contours, Points("points", piece, False), False, width, shape, join, dash, distance)
-        self._fill_contours(contours.points, contours.ends, contours.contours, True, antialias)
+        unit: cython.int = 256 * contours.fineness
+        self._fill_contours(contours.points, contours.ends, contours.contours, True, antialias, unit)
 
     @cython.cfunc
     def _fill_contours(
@@ -155,14 +148,15 @@ class Paths:
         contours: cython.Py_ssize_t,
         nonzero: cython.bint,
         antialias: Any,
+        unit: cython.int,
     ) -> Any:
-        """What `polygons` fills, with any anti-aliasing."""
-        if contours:
-            samples: Supersample = self._begin(antialias)
-            try:
-                polygons(self.surface, points, ends, contours, nonzero, samples.n, samples.corner)
-            finally:
-                self._end()
+        """Fill contours with any anti-aliasing; points in 1 / `unit` pixels, which are 256ths without a filter."""
+        if isinstance(antialias, ConeFilter):
+            cone: ConeFilter = antialias
+            fill(self.surface, cone, points, ends, contours, nonzero, unit)
+        else:
+            samples: Supersample = ALIASED if antialias is None else as_samples(antialias)
+            polygons(self.surface, points, ends, contours, nonzero, samples.n, samples.corner)
 
     @cython.cfunc
     def _add_stroke(

@@ -109,6 +109,9 @@ class Polygons(Lines):
         #######
         """
         corners: Any = (x1, y1, x2, y2, x3, y3)
+        for name, number in zip(("x1", "y1", "x2", "y2", "x3", "y3"), corners, strict=True):
+            if type(number) is not int:
+                real(name, number)
         self.poly(0, 0, corners, c, fill, width=width, join=join, antialias=antialias, op=op)
 
     def poly(
@@ -184,7 +187,7 @@ class Polygons(Lines):
         if corners.exact is not None:
             corners = Points("coords", cut_polygon(corners.exact), False)
         end[0] = corners.count
-        self._fill_contours(corners.values, end, 1, nonzero, antialias)
+        self._fill_contours(corners.values, end, 1, nonzero, antialias, 256)
 
     @cython.cfunc
     def _outline(

@@ -1,4 +1,5 @@
 from paneldraw.framebuffer.polygons cimport Polygons
+from paneldraw.raster.cone cimport ConeFilter
 
 cdef long long LARGE
 cdef long long LARGE_256THS
@@ -19,4 +20,7 @@ cdef class Rounds(Polygons):
     )
     cdef object _band(
         self, object centers, object a, object b, object width, bint sharp, bint fill, object cut, object antialias
+    )
+    cdef object _filtered_band(
+        self, object centers, object a, object b, object width, bint sharp, bint fill, object cut, ConeFilter cone
     )

@@ -9,28 +9,42 @@ from typing import Any
 import cython
 
 from paneldraw.framebuffer.angles import direction, is_reflex
+from paneldraw.framebuffer.arguments import as_samples
+from paneldraw.framebuffer.paths import FINENESS
 from paneldraw.raster.curves import end_of_radius
 from paneldraw.raster.cuts import UNIT, quadrants_far, sector_outline_far, wedge_far
+from paneldraw.raster.round_contours import HalfPlane, add_band_far
 
 if cython.compiled:
     from cython.cimports.paneldraw.framebuffer.arguments import FIXED_REACH, NEAR
+    from cython.cimports.paneldraw.raster.cone import ConeFilter
     from cython.cimports.paneldraw.raster.curves import Sector, Wedge, curve_far, ellipse, rounded, sector_far
     from cython.cimports.paneldraw.raster.cuts import Cut, Quadrants, SectorOutline
     from cython.cimports.paneldraw.raster.cuts import Wedge as WedgeCut
+    from cython.cimports.paneldraw.raster.round_contours import add_band
     from cython.cimports.paneldraw.raster.rounds import band, band_far
+    from cython.cimports.paneldraw.raster.strokes import Contours
     from cython.cimports.paneldraw.raster.supersample import Supersample
+    from cython.cimports.paneldraw.raster.surface import Surface
 else:
     from paneldraw.framebuffer.arguments import FIXED_REACH, NEAR
     from paneldraw.framebuffer.polygons import Polygons
+    from paneldraw.raster.cone import ConeFilter
     from paneldraw.raster.curves import Sector, Wedge, curve_far, ellipse, rounded, sector_far
     from paneldraw.raster.cuts import Cut, Quadrants, SectorOutline
     from paneldraw.raster.cuts import Wedge as WedgeCut
+    from paneldraw.raster.round_contours import add_band
     from paneldraw.raster.rounds import band, band_far
+    from paneldraw.raster.strokes import Contours
     from paneldraw.raster.supersample import Supersample
+    from paneldraw.raster.surface import Surface
 
 # Radii beyond these, in pixels and in 256ths, are left to Python's arithmetic.
 LARGE = cython.declare(cython.longlong, 1 << 14)
 LARGE_256THS = cython.declare(cython.longlong, 1 << 21)
+
+# Radii up to this, in 256ths, are followed all around for a filter; of larger ones what is in sight.
+_FOLLOWED = 1 << 21
 
 # The length of the vectors of angles, where 64 bits do not limit it.
 _FINE = 1 << 60
@@ -134,17 +148,73 @@ class Rounds(Polygons):
 
         `cut` is None, a number of quadrants, or two vectors, whether their angle is reflex, and whether it is outlined.
         """
-        samples: Supersample = self._begin(antialias)
-        try:
-            if _is_near(max(a, b), width):
-                left, top, right, bottom = (_clamp(center, 256 * FIXED_REACH) for center in centers)
-                near = _near_cut(cut)
-                band(self.surface, left, top, right, bottom, a, b, width, sharp, fill, near, samples.n, samples.corner)
-            else:
-                far = _far_cut(cut)
-                band_far(self.surface, centers, a, b, width, sharp, fill, far, samples.n, samples.corner)
-        finally:
-            self._end()
+        if isinstance(antialias, ConeFilter):
+            self._filtered_band(centers, a, b, width, sharp, fill, cut, antialias)
+            return
+        samples: Supersample = as_samples(antialias)
+        if _is_near(max(a, b), width):
+            left, top, right, bottom = (_clamp(center, 256 * FIXED_REACH) for center in centers)
+            near = _near_cut(cut)
+            band(self.surface, left, top, right, bottom, a, b, width, sharp, fill, near, samples.n, samples.corner)
+        else:
+            far = _far_cut(cut)
+            band_far(self.surface, centers, a, b, width, sharp, fill, far, samples.n, samples.corner)
+
+    @cython.cfunc
+    def _filtered_band(
+        self,
+        centers: Any,
+        a: Any,
+        b: Any,
+        width: Any,
+        sharp: cython.bint,
+        fill: cython.bint,
+        cut: Any,
+        cone: ConeFilter,
+    ) -> Any:
+        """As `_band`, by way of its contours."""
+        contours = Contours(FINENESS, 256 * cone.radius)
+        surface: Surface = self.surface
+        unit: cython.int = 256 * FINENESS
+        # What a filter of any radius can reach.
+        sight = (surface.left - 6, surface.top - 6, surface.right + 6, surface.bottom + 6)
+        left, top, right, bottom = centers
+        beyond = width // 2 + 1
+        if (
+            left - a - beyond > 256 * sight[2]
+            or top - b - beyond > 256 * sight[3]
+            or right + a + beyond < 256 * sight[0]
+            or bottom + b + beyond < 256 * sight[1]
+        ):
+            return
+        near: cython.bint = max(a, b, width) <= _FOLLOWED and max(map(abs, centers)) <= 256 * FIXED_REACH // 2
+        box = tuple([FINENESS * center for center in centers])
+        radii = (FINENESS * a, FINENESS * b)
+        half = FINENESS * width // 2
+        parts, sides = _planes(cut, half, unit, UNIT if _is_near(max(a, b), width) else _FINE)
+        if near:
+            add_band(contours, box, radii, half, sharp, not fill, parts, sides)
+        else:
+            sight = tuple([unit * side for side in sight])
+            add_band_far(contours, sight, box, radii, half, sharp, not fill, parts, sides)
+        self._fill_contours(contours.points, contours.ends, contours.contours, True, cone, unit)
+
+
+def _planes(cut: Any, half: Any, pixel: Any, length: Any) -> tuple[list[list[HalfPlane]], list[list[HalfPlane]]]:
+    """The parts and sides that `add_band` takes for a `cut`, whose vectors have the given length."""
+    if cut is None:
+        return [[]], []
+    if not isinstance(cut, tuple):
+        signs = ((1, 1, -1), (2, -1, -1), (4, -1, 1), (8, 1, 1))
+        quarters = [[(0, -sx, pixel // 2), (sy, 0, pixel // 2)] for bit, sx, sy in signs if cut & bit]
+        return quarters, []
+    (sx, sy), (ex, ey), reflex, outlined = cut
+    begin, end, turned = (sx, sy, 0), (-ex, -ey, 0), (-sx, -sy, 0)
+    # More than half a turn is half a turn and the rest.
+    parts = [[begin], [turned, end]] if reflex else [[begin, end]]
+    margin = half * length
+    sides = [[(x, y, margin), (-x, -y, margin), (y, -x, 0)] for x, y in ((sx, sy), (ex, ey))] if outlined else []
+    return parts, sides
 
 
 @cython.cfunc

@@ -1,9 +1,8 @@
 # cython: language_level=3, boundscheck=False, wraparound=False, cdivision=True
 """Anti-aliasing by filtering: each pixel's area of influence is a circle, on which a cone of volume 1 stands.
 
-The coverage of a pixel is the volume above the shape. For a line that is exact: the cone looks the same from every
-side, so one table serves lines of all angles and widths, their ends included. Other shapes are sampled 16 x 16 times a
-pixel, each sample weighed by the cone's height above it.
+The coverage of a pixel is the volume above the shape. The cone looks the same from every side, so one table serves
+lines of all angles and widths, their ends included. Other shapes are filled by `paneldraw.raster.filtered`.
 """
 
 from __future__ import annotations
@@ -26,12 +25,6 @@ else:
     from paneldraw.raster._floors import floored
     from paneldraw.raster.surface import Surface
 
-#: Sub-pixels along each side of a pixel, for shapes that are not lines.
-SAMPLES = 16
-
-#: What the weights of a pixel's samples add up to.
-_WHOLE = 1 << 20
-
 #: In how many steps coverage is handed on; `Surface.blend` divides exactly by no more.
 _STEPS = cython.declare(cython.int, 1024)
 
@@ -43,7 +36,7 @@ _PART = cython.declare(cython.longlong, 1 << 24)
 _FAR = cython.declare(cython.double, 1e9)
 
 #: The height at a distance from the middle, in radii; made to have volume 1 afterwards.
-_HEIGHTS = {
+HEIGHTS = {
     "cone": lambda distance: 1 - distance,
     "box": lambda distance: 1 + 0 * distance,
     "gaussian": lambda distance: np.exp(-2 * distance**2),
@@ -95,8 +88,8 @@ class ConeFilter:
             raise TypeError(f"radius must be a number of pixels, not {type(radius).__name__}")
         if not 0.5 <= radius <= 4:
             raise ValueError(f"radius must be from 0.5 to 4 pixels, not {radius}")
-        if filter not in _HEIGHTS:
-            raise ValueError(f"filter must be one of {', '.join(map(repr, _HEIGHTS))}, not {filter!r}")
+        if filter not in HEIGHTS:
+            raise ValueError(f"filter must be one of {', '.join(map(repr, HEIGHTS))}, not {filter!r}")
         if not isinstance(resolution, int) or isinstance(resolution, bool):
             raise TypeError(f"resolution must be a whole number of steps, not {type(resolution).__name__}")
         if not 8 <= resolution <= 256:
@@ -104,11 +97,11 @@ class ConeFilter:
         self.radius = float(radius)
         self.filter = filter
         self.resolution = resolution
-        self.reach = cython.cast(cython.int, ceil(radius + 0.5)) - 1
         self.kept = _volumes(filter, resolution)
         self.fitted = 0
         self.kept_band: Any = None
-        self.kept_kernel: Any = None
+        # What `paneldraw.raster.filtered` makes of it at first use.
+        self.volumes_of_edges: Any = None
         if cython.compiled:
             self.volumes = cython.cast(cython.p_double, PyMemoryView_GET_BUFFER(memoryview(self.kept)).buf)
         else:
@@ -179,18 +172,6 @@ class ConeFilter:
         self.nearest = max(width / 2 - self.radius, 0)
         self.fitted = width
 
-    @cython.cfunc
-    def begin(self, surface: Surface) -> Any:
-        """Let what is painted on a surface, in SAMPLES x SAMPLES sub-pixels, be weighed; until `finish`."""
-        if self.kept_kernel is None:
-            self.kept_kernel = _kernel(self.radius, self.filter, self.reach)
-            if cython.compiled:
-                address: cython.size_t = self.kept_kernel.__array_interface__["data"][0]
-                self.kernel = cython.cast(cython.p_int, address)
-            else:
-                self.kernel = self.kept_kernel.ravel().tolist()
-        surface.begin_weighing(self.kernel, self.reach)
-
 
 @lru_cache(maxsize=32)
 def _band(cone: ConeFilter, width: Any) -> Any:
@@ -219,38 +200,13 @@ def _volumes(filter: Any, resolution: Any) -> Any:
     fine = max(1, 512 // resolution)
     middles = (np.arange(2 * resolution * fine) + 0.5) / (resolution * fine) - 1
     distance = np.hypot(middles[:, None], middles)
-    heights = np.where(distance < 1, _HEIGHTS[filter](distance), 0.0)
+    heights = np.where(distance < 1, HEIGHTS[filter](distance), 0.0)
     table = np.zeros((2 * resolution + 1, 2 * resolution + 1))
     sums = heights.reshape(2 * resolution, fine, 2 * resolution, fine).sum((1, 3))
     table[1:, 1:] = sums.cumsum(0).cumsum(1)
     table /= table[-1, -1]
     table.setflags(write=False)
     return table
-
-
-@lru_cache(maxsize=16)
-def _kernel(radius: Any, filter: Any, reach: Any) -> Any:
-    """How a span's edge changes coverage from pixel to pixel.
-
-    Entry (t, j, f, m): in the row of pixels t - reach away, for an edge in sub-scanline j at sub-pixel f of its pixel,
-    by how much the weight right of the edge is larger at pixel m - reach than at the one to its left.
-    """
-    n = SAMPLES
-    offsets = (np.arange(-reach * n, (reach + 1) * n) + 0.5) / n - 0.5
-    distance = np.hypot(offsets[:, None], offsets) / radius
-    weights = np.where(distance < 1, _HEIGHTS[filter](np.minimum(distance, 1)), 0.0)
-    below = np.zeros((len(offsets), len(offsets) + 1))
-    below[:, 1:] = weights.cumsum(1)
-    below = np.rint(below * (_WHOLE / weights.sum())).astype(np.int64)
-    kernel = np.zeros((2 * reach + 1, n, n, 2 * reach + 2), np.int32)
-    for t in range(2 * reach + 1):
-        for j in range(n):
-            row = below[(2 * reach - t) * n + j]
-            for f in range(n):
-                for m in range(2 * reach + 2):
-                    edge = f - (m - reach) * n + reach * n
-                    kernel[t, j, f, m] = row[min(max(edge + n, 0), len(row) - 1)] - row[min(max(edge, 0), len(row) - 1)]
-    return kernel
 
 
 @cython.cfunc

@@ -195,7 +195,6 @@ def _fill(
     row: cython.int
     crossing: cython.int = 0
     count: cython.int
-    start: cython.int
     next: cython.int
     i: cython.int
     j: cython.int
@@ -234,7 +233,6 @@ def _fill(
             if not in_order:
                 _sort(active, crossing)
                 in_order = True
-            start = count
             winding = 0
             before = active[0].bound
             for i in range(crossing):
@@ -251,9 +249,6 @@ def _fill(
                     edge.fraction &= whole
                 in_order &= i == 0 or before <= bound
                 before = bound
-            if surface.weighing:
-                for i in range(start, count, 2):
-                    surface.weigh(y, row - y * n, spans[i], spans[i + 1])
         paint(surface, y, spans, count >> 1, n)
 
 

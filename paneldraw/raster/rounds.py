@@ -53,7 +53,6 @@ def band(
     the width less than 2**13.
     """
     # Left, top, right and bottom of the rectangle, and the two radii.
-    i: cython.Py_ssize_t
     outer: cython.longlong[6]
     hole: cython.longlong[6]
     spans: cython.Py_ssize_t[224]
@@ -68,8 +67,7 @@ def band(
     middle: cython.longlong = 256 * (n if corner else n - 1)
     first: cython.longlong = max((outer[1] - outer[5] + middle + 511) >> 9, surface.top * n)
     last: cython.longlong = min((outer[3] + outer[5] + middle + 511) >> 9, surface.bottom * n)
-    # The row of `first`, which is negative where a filter looks beyond the window.
-    y: cython.longlong = surface.top + (first - surface.top * n) // n
+    y: cython.longlong = first // n
     row: cython.longlong
     start: cython.Py_ssize_t
     count: cython.Py_ssize_t
@@ -82,9 +80,6 @@ def band(
                 count = _open(spans, count)
             if cut is not None and count > start:
                 count = cut.apply(spans, start, count, 512 * row - middle, middle)
-            if surface.weighing:
-                for i in range(start, count):
-                    surface.weigh(y, row - y * n, spans[2 * i], spans[2 * i + 1])
         paint(surface, y, spans, count, n)
         y += 1
 
@@ -190,8 +185,6 @@ def band_far(
                 for end in (0, 1):
                     bound = -((-pieces[k][end] - x - middle) // 512)
                     spans[2 * count + end] = min(max(bound, (surface.left - 1) * n), (surface.right + 1) * n)
-                if surface.weighing:
-                    surface.weigh(y, row - n * y, spans[2 * count], spans[2 * count + 1])
                 count += 1
         paint(surface, y, spans, count, n)
 

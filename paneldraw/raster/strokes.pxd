@@ -3,9 +3,15 @@ cdef class Contours:
     cdef long long *points
     cdef Py_ssize_t *ends
     cdef Py_ssize_t capacity, room_for_ends, count, contours
+    cdef int fineness
+    cdef double radius
 
     cdef object add(self, double x, double y)
+    cdef object add_whole(self, long long x, long long y)
     cdef object close(self)
+    cdef void reverse(self) noexcept nogil
+    cdef object cut(self, long long cx, long long cy, double vx, double vy, double margin)
+    cdef object end(self)
 
 cdef class Dashes:
     cdef Contours contours

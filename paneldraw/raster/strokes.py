@@ -12,9 +12,9 @@ from typing import Any
 import cython
 
 if cython.compiled:
-    from cython.cimports.libc.math import acos, atan2, ceil, cos, floor, fmod, hypot, rint, sin
+    from cython.cimports.libc.math import acos, atan2, ceil, cos, floor, fmod, hypot, rint, sin, sqrt
 else:
-    from math import acos, atan2, ceil, cos, floor, fmod, hypot, sin
+    from math import acos, atan2, ceil, cos, floor, fmod, hypot, sin, sqrt
 
     rint = round
 
@@ -27,9 +27,15 @@ PI = cython.declare(cython.double, 3.141592653589793)
 
 @cython.cclass
 class Contours:
-    """A list of closed contours that grows; as `polygons` takes it."""
+    """A list of closed contours that grows; as `polygons` takes it, or with points `fineness` times as fine.
 
-    def __init__(self) -> None:
+    Arcs are chords within a quarter of a 256th. For a filter of a certain radius, in 256ths, they need be no closer
+    than it tells: then they are on either side of the arc, enclose the area that it does, and are evened out.
+    """
+
+    def __init__(self, fineness: cython.int = 1, radius: cython.double = 0) -> None:
+        self.fineness = fineness
+        self.radius = radius
         self.count = 0
         self.contours = 0
         self.capacity = 0
@@ -42,42 +48,100 @@ class Contours:
 
     @cython.cfunc
     def add(self, x: cython.double, y: cython.double) -> Any:
-        """Add a point to the open contour, rounded to whole 256ths.
+        """Add a point to the open contour, rounded to whole 256ths or finer.
 
         Halves go to the even number: two points that lie symmetrically about a whole one still do so afterwards, and
         the edge between them runs through it, where other pieces meet this one.
         """
-        a: cython.longlong = cython.cast(cython.longlong, rint(x))
-        b: cython.longlong = cython.cast(cython.longlong, rint(y))
+        self.add_whole(
+            cython.cast(cython.longlong, rint(x * self.fineness)), cython.cast(cython.longlong, rint(y * self.fineness))
+        )
+
+    @cython.cfunc
+    def add_whole(self, x: cython.longlong, y: cython.longlong) -> Any:
+        """Add a point as it will be kept."""
         if cython.compiled:
             if self.count == self.capacity:
                 self.capacity = 2 * self.capacity + 64
                 self.kept.extend(bytes(16 * self.capacity - len(self.kept)))
                 self.points = cython.cast(cython.p_longlong, cython.cast(cython.p_char, self.kept))
-            self.points[2 * self.count] = a
-            self.points[2 * self.count + 1] = b
+            self.points[2 * self.count] = x
+            self.points[2 * self.count + 1] = y
         else:
-            self.points += [a, b]
+            self.points += [x, y]
         self.count += 1
 
     @cython.cfunc
     def close(self) -> Any:
         """Close the open contour, turned clockwise as the screen shows it."""
-        i: cython.Py_ssize_t = self.ends[self.contours - 1] if self.contours else 0
-        j: cython.Py_ssize_t = self.count - 1
         k: cython.Py_ssize_t
-        before: cython.Py_ssize_t = j
+        before: cython.Py_ssize_t = self.count - 1
         area: cython.longlong = 0
         points: cython.p_longlong = self.points
-        for k in range(i, self.count):
+        for k in range(self.ends[self.contours - 1] if self.contours else 0, self.count):
             area += points[2 * before] * points[2 * k + 1] - points[2 * k] * points[2 * before + 1]
             before = k
         if area < 0:
-            while i < j:
-                points[2 * i], points[2 * j] = points[2 * j], points[2 * i]
-                points[2 * i + 1], points[2 * j + 1] = points[2 * j + 1], points[2 * i + 1]
-                i += 1
-                j -= 1
+            self.reverse()
+        self.end()
+
+    @cython.cfunc
+    @cython.nogil
+    @cython.exceptval(check=False)
+    def reverse(self) -> cython.void:
+        """Turn the open contour round."""
+        points: cython.p_longlong = self.points
+        i: cython.Py_ssize_t = self.ends[self.contours - 1] if self.contours else 0
+        j: cython.Py_ssize_t = self.count - 1
+        while i < j:
+            points[2 * i], points[2 * j] = points[2 * j], points[2 * i]
+            points[2 * i + 1], points[2 * j + 1] = points[2 * j + 1], points[2 * i + 1]
+            i += 1
+            j -= 1
+
+    @cython.cfunc
+    def cut(
+        self, cx: cython.longlong, cy: cython.longlong, vx: cython.double, vy: cython.double, margin: cython.double
+    ) -> Any:
+        """Leave of the open contour what is clockwise of a vector from (cx, cy): Sutherland and Hodgman's algorithm.
+
+        The cross product of the vector and what is left is -margin or more.
+        """
+        start: cython.Py_ssize_t = self.ends[self.contours - 1] if self.contours else 0
+        end: cython.Py_ssize_t = self.count
+        i: cython.Py_ssize_t
+        last: cython.Py_ssize_t = end - 1
+        share: cython.double
+        depth: cython.double
+        before: cython.double = 0
+        if start < end:
+            before = vx * (self.points[2 * last + 1] - cy) - vy * (self.points[2 * last] - cx) + margin
+        for i in range(start, end):
+            x1: cython.longlong = self.points[2 * last]
+            y1: cython.longlong = self.points[2 * last + 1]
+            x2: cython.longlong = self.points[2 * i]
+            y2: cython.longlong = self.points[2 * i + 1]
+            depth = vx * (y2 - cy) - vy * (x2 - cx) + margin
+            if (before < 0) != (depth < 0):
+                share = before / (before - depth)
+                self.add_whole(
+                    x1 + cython.cast(cython.longlong, rint((x2 - x1) * share)),
+                    y1 + cython.cast(cython.longlong, rint((y2 - y1) * share)),
+                )
+            if depth >= 0:
+                self.add_whole(x2, y2)
+            before = depth
+            last = i
+        # What is left was added behind what there was.
+        for i in range(2 * end, 2 * self.count):
+            self.points[i - 2 * (end - start)] = self.points[i]
+        self.count -= end - start
+        if not cython.compiled:
+            del self.points[2 * self.count :]
+
+    @cython.cfunc
+    def end(self) -> Any:
+        """Close the open contour as it is."""
         if cython.compiled:
             if self.contours == self.room_for_ends:
                 self.room_for_ends = 2 * self.room_for_ends + 16
@@ -212,16 +276,20 @@ def _fan(
     ey: cython.double,
     angle: cython.double,
 ) -> Any:
-    """A circular sector from (x + dx, y + dy) clockwise to (x + ex, y + ey); chords are a quarter of a 256th off."""
+    """A circular sector from (x + dx, y + dy) clockwise to (x + ex, y + ey)."""
     radius: cython.double = hypot(dx, dy)
     steps: cython.int = 1
+    deviation: cython.double = max(0.25, 0.01 * contours.radius)
     if radius > 0.5:
-        steps = cython.cast(cython.int, ceil(angle / (2 * acos(1 - 0.25 / radius))))
+        steps = cython.cast(cython.int, ceil(angle / (2 * acos(max(0.5, 1 - deviation / radius)))))
     i: cython.int
     turned: cython.double
     contours.add(x, y)
     for i in range(steps):
         turned = angle * i / steps
+        if i == 1 and contours.radius > 0:
+            dx *= sqrt(turned / sin(turned))
+            dy *= sqrt(turned / sin(turned))
         contours.add(x + dx * cos(turned) - dy * sin(turned), y + dx * sin(turned) + dy * cos(turned))
     contours.add(x + ex, y + ey)
     contours.close()

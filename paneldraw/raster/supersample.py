@@ -122,12 +122,9 @@ def paint(
 ) -> cython.void:
     """Paint row `y`, which is in the window, from `count` spans: ``spans[2 k] <= sub-pixel < spans[2 k + 1]``.
 
-    Spans may reach beyond the window and be empty; those of one sub-scanline do not overlap. While weights are added
-    up, which is done span by span, there is nothing to count.
+    Spans may reach beyond the window and be empty; those of one sub-scanline do not overlap.
     """
     k: cython.Py_ssize_t
-    if surface.weighing:
-        return
     if n == 1:
         for k in range(count):
             surface.span(y, spans[2 * k], spans[2 * k + 1])

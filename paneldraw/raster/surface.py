@@ -36,6 +36,7 @@ class Surface:
         self.scratch = None
         self.mask = None
         self.kept = None
+        self.boundary: Any = None
         if cython.compiled:
             address: cython.size_t = memory.__array_interface__["data"][0]
             self.pixels = cython.cast(cython.p_uchar, address + origin)
@@ -53,7 +54,6 @@ class Surface:
         self.bottom = height
         self.level = -1
         self.op = -1
-        self.weighing = False
         self.n = 0
         self.full = 0
         self.reserve()
@@ -102,97 +102,6 @@ class Surface:
         self.top = min(max(top, 0), self.height)
         self.right = max(min(right, self.width), self.left)
         self.bottom = max(min(bottom, self.height), self.top)
-
-    @cython.cfunc
-    def begin_weighing(self, kernel: cython.p_int, reach: cython.int) -> Any:
-        """From now on add up weights for what is painted, as `paneldraw.raster.cone` has them, until `finish_weighing`.
-
-        Meanwhile the window is larger by `reach` pixels on each side: what lies there has an influence within.
-        """
-        # A row of sums for each row of pixels that one row has an influence on, with a margin at both ends.
-        self.sums_stride = self.width + 4 * reach + 4
-        if cython.compiled:
-            self.sums_kept = bytearray(4 * (2 * reach + 1) * self.sums_stride)
-            self.sums = cython.cast(cython.p_int, cython.cast(cython.p_char, self.sums_kept))
-        else:
-            self.sums = [0] * ((2 * reach + 1) * self.sums_stride)
-        self.kernel = kernel
-        self.reach = reach
-        self.left -= reach
-        self.top -= reach
-        self.right += reach
-        self.bottom += reach
-        self.weighed = self.top
-        self.weighing = True
-
-    @cython.cfunc
-    def finish_weighing(self) -> Any:
-        """Paint what has been added up, and let spans be counted again."""
-        y: cython.Py_ssize_t
-        for y in range(self.weighed - self.reach, self.weighed + self.reach + 1):
-            self.paint_weighed(y)
-        self.weighing = False
-        self.left += self.reach
-        self.top += self.reach
-        self.right -= self.reach
-        self.bottom -= self.reach
-
-    @cython.cfunc
-    @cython.nogil
-    @cython.exceptval(check=False)
-    def weigh(self, y: cython.Py_ssize_t, line: cython.int, a: cython.Py_ssize_t, b: cython.Py_ssize_t) -> cython.void:
-        """Add up the weights of the sub-pixels ``a <= g < b`` in sub-scanline `line` of row `y`; rows come in order."""
-        reach: cython.int = self.reach
-        rows: cython.int = 2 * reach + 1
-        edge: cython.int
-        t: cython.int
-        m: cython.int
-        sign: cython.int
-        x: cython.Py_ssize_t
-        to: cython.Py_ssize_t
-        entry: cython.Py_ssize_t
-        a = max(a, 16 * (self.left - 1))
-        b = min(b, 16 * (self.right + 1))
-        if a >= b:
-            return
-        while self.weighed < y:
-            self.paint_weighed(self.weighed - reach)
-            self.weighed += 1
-        for edge in range(2):
-            sign = 1 - 2 * edge
-            x = (b if edge else a) + 16 * (2 * reach + 1)
-            for t in range(rows):
-                to = ((y + t + rows) % rows) * self.sums_stride + (x >> 4)
-                entry = (((t * 16 + line) << 4) + (x & 15)) * (rows + 1)
-                for m in range(rows + 1):
-                    self.sums[to + m - reach] += sign * self.kernel[entry + m]
-
-    @cython.cfunc
-    @cython.nogil
-    @cython.exceptval(check=False)
-    def paint_weighed(self, y: cython.Py_ssize_t) -> cython.void:
-        """Paint a row that no further sub-scanline has an influence on."""
-        reach: cython.int = self.reach
-        rows: cython.int = 2 * reach + 1
-        # Row y was the first of those that row y + reach has an influence on.
-        at: cython.Py_ssize_t = ((y + reach + rows) % rows) * self.sums_stride
-        x: cython.Py_ssize_t
-        total: cython.longlong = 0
-        covered: cython.int
-        before: cython.int = 0
-        visible: cython.bint = self.top + reach <= y < self.bottom - reach
-        left: cython.Py_ssize_t = self.left + reach
-        right: cython.Py_ssize_t = self.right - reach
-        for x in range(-rows, self.sums_stride - rows):
-            total += self.sums[at + x + rows]
-            self.sums[at + x + rows] = 0
-            if visible and left <= x < right:
-                covered = cython.cast(cython.int, (total + 512) >> 10)
-                self.cells[x] = covered - before
-                before = covered
-        if visible:
-            self.count_in(1, 1024)
-            self.blend(y, left, right, 0)
 
     @cython.cfunc
     @cython.nogil

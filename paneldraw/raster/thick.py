@@ -82,15 +82,13 @@ def block(
     b: cython.Py_ssize_t = _floor_div(right + middle + 511, 512)
     count: cython.int
     y: cython.longlong
-    row: cython.longlong
+    _row: cython.longlong
     for y in range(_floor_div(first, n), _floor_div(last - 1, n) + 1):
         count = 0
-        for row in range(max(first, y * n), min(last, y * n + n)):
+        for _row in range(max(first, y * n), min(last, y * n + n)):
             spans[2 * count] = a
             spans[2 * count + 1] = b
             count += 1
-            if surface.weighing:
-                surface.weigh(y, row - y * n, a, b)
         paint(surface, y, spans, count, n)
 
 

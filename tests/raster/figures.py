@@ -81,6 +81,11 @@ def stroke_bounds(pieces, n, reference, size=(WIDTH, HEIGHT), tolerance=ROUNDING
     return per_pixel(surely, n), per_pixel(perhaps, n)
 
 
+def union(pieces):
+    """The points in any of the pieces, as a function of their coordinates."""
+    return lambda xs, ys: _in_union(pieces, xs, ys)
+
+
 def _in_union(pieces, xs, ys):
     inside = np.zeros(np.broadcast_shapes(xs.shape, ys.shape), bool)
     for half_planes, disc in pieces:
