@@ -48,6 +48,10 @@ def rounded(
     """
     if left - r >= surface.right or right + r < surface.left or top - r >= surface.bottom or bottom + r < surface.top:
         return
+    if left == right and top == bottom and r > surface.bottom - surface.top:
+        # Of a circle larger than the window the rows in sight have the same pixels.
+        ellipse(surface, left, top, r, r, fill, 15, None)
+        return
     if fill or r == 0:
         _rounded_rows(surface, left, top, right, bottom, r)
         return

@@ -242,14 +242,25 @@ def far(surface: Surface, x1: Any, y1: Any, x2: Any, y2: Any, pattern: Any, phas
     dx = x2 - x1
     dy = y2 - y1
     low, high = (surface.top, surface.bottom) if steep else (surface.left, surface.right)
-    limit = max(surface.right, surface.bottom)
-    for x in range(max(x1, low), min(x2 + 1, high)):
+    limits = (surface.left, surface.right) if steep else (surface.top, surface.bottom)
+    first, last = max(x1, low), min(x2, high - 1)
+    if first > last:
+        return
+    ends = [y1 + _moved(x - x1, dx, dy) for x in (first, last)]
+    if max(ends) < limits[0] or min(ends) >= limits[1]:
+        return
+    for x in range(first, last + 1):
         if pattern and not _is_lit(pattern, phase + (x2 - x if backward else x - x1)):
             continue
-        moved = (2 * (x - x1) * abs(dy) + dx) // (2 * dx) if dx else 0
-        y = y1 + moved if dy >= 0 else y1 - moved
-        if 0 <= y < limit:
+        y = y1 + _moved(x - x1, dx, dy)
+        if limits[0] <= y < limits[1]:
             surface.point(y if steep else x, x if steep else y)
+
+
+def _moved(steps: Any, dx: Any, dy: Any) -> Any:
+    """How many rows further a line is after so many steps."""
+    rows = (2 * steps * abs(dy) + dx) // (2 * dx) if dx else 0
+    return rows if dy >= 0 else -rows
 
 
 def _is_lit(pattern: list[Any], step: Any) -> bool:

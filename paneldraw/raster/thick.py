@@ -310,6 +310,13 @@ def slab_far(
     before, behind = (inside, outside) if square else (0, 0)
     whole = 0 if x1 == x2 and y1 == y2 else 2 * n * squared
     middle = 256 * (n if corner else n - 1)
+    # u and v of the window's corners: a window that lies all on one side of the rectangle shows nothing of it.
+    columns = [512 * n * x - middle - 2 * n * x1 for x in (surface.left, surface.right)]
+    heights = [512 * n * y - middle - 2 * n * y1 for y in (surface.top, surface.bottom)]
+    along = [dx * column + dy * height for column in columns for height in heights]
+    across = [dy * column - dx * height for column in columns for height in heights]
+    if min(along) > whole + behind or max(along) < -before or min(across) > outside or max(across) < -outside:
+        return
     spans: cython.Py_ssize_t[32]
     if not cython.compiled:
         spans = [0] * 32
