@@ -100,6 +100,7 @@ class Framebuffer(Shapes):
         if depth not in _DEPTHS:
             raise ValueError(f"depth must be 1, 2, 4 or 8 bits a pixel, not {depth!r}")
         memory = np.zeros(width * height, np.uint8)
+        self._contours = None
         self.surface = Surface(memory, 0, width, width, height, (1 << depth) - 1)
         self.pixels = memory.reshape(height, width)
         self.depth = depth
@@ -364,6 +365,7 @@ class Framebuffer(Shapes):
         part.pixels = self.pixels[y : y + h, x : x + w]
         part.depth = self.depth
         part._antialias = self._antialias
+        part._contours = None
         return part
 
     # -- As a picture

@@ -46,6 +46,7 @@ class Paths:
 
     surface: Surface
     _antialias: Any
+    _contours: Contours | None
 
     @cython.cfunc
     @cython.inline
@@ -114,6 +115,18 @@ class Paths:
             self.surface.point(i % width, i // width)
 
     @cython.cfunc
+    def _empty_contours(self, antialias: Any) -> Contours:
+        """Contours to be filled with this anti-aliasing, in memory that is kept from call to call."""
+        if self._contours is None:
+            self._contours = Contours()
+        if isinstance(antialias, ConeFilter):
+            cone: ConeFilter = antialias
+            self._contours.begin(FINENESS, 256 * cone.radius)
+        else:
+            self._contours.begin(1, 0)
+        return self._contours
+
+    @cython.cfunc
     def _stroke(
         self,
         path: Points,
@@ -125,11 +138,7 @@ class Paths:
         antialias: Any,
     ) -> Any:
         """A path of any width, its points and lengths in 256ths of a pixel, as one shape."""
-        if isinstance(antialias, ConeFilter):
-            cone: ConeFilter = antialias
-            contours = Contours(FINENESS, 256 * cone.radius)
-        else:
-            contours = Contours()
+        contours: Contours = self._empty_contours(antialias)
         width = min(width, FIXED_REACH * 256)
         if path.exact is None:
             self._add_stroke(contours, path, closed, width, cap, join, dash, 0)

@@ -173,7 +173,7 @@ class Rounds(Polygons):
         cone: ConeFilter,
     ) -> Any:
         """As `_band`, by way of its contours."""
-        contours = Contours(FINENESS, 256 * cone.radius)
+        contours: Contours = self._empty_contours(cone)
         surface: Surface = self.surface
         unit: cython.int = 256 * FINENESS
         # What a filter of any radius can reach.

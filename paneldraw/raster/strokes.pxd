@@ -6,6 +6,7 @@ cdef class Contours:
     cdef int fineness
     cdef double radius
 
+    cdef object begin(self, int fineness, double radius)
     cdef object add(self, double x, double y)
     cdef object add_whole(self, long long x, long long y)
     cdef object close(self)

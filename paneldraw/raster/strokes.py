@@ -33,15 +33,20 @@ class Contours:
     than it tells: then they are on either side of the arc, enclose the area that it does, and are evened out.
     """
 
-    def __init__(self, fineness: cython.int = 1, radius: cython.double = 0) -> None:
-        self.fineness = fineness
-        self.radius = radius
-        self.count = 0
-        self.contours = 0
+    def __init__(self) -> None:
         self.capacity = 0
         self.room_for_ends = 0
         self.kept = bytearray()
         self.kept_ends = bytearray()
+        self.begin(1, 0)
+
+    @cython.cfunc
+    def begin(self, fineness: cython.int, radius: cython.double) -> Any:
+        """Begin a new list, in the memory of the one before."""
+        self.fineness = fineness
+        self.radius = radius
+        self.count = 0
+        self.contours = 0
         if not cython.compiled:
             self.points: list[Any] = []
             self.ends: list[Any] = []
