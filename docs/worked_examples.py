@@ -23,6 +23,8 @@ from typing import Any
 
 from paneldraw._compiled import MODULES
 from paneldraw._interpreted import load_sources
+from paneldraw.controllers import SSD1306
+from paneldraw.transports import COMMAND, DATA, Cost
 
 PAGE = Path(__file__).with_name("algorithms.md")
 ROOT = PAGE.parent.parent
@@ -76,7 +78,10 @@ def plain() -> dict[str, Any]:
             sys.modules[name] = module
             setattr(importlib.import_module(name.rpartition(".")[0]), name.rpartition(".")[2], module)
     raster = {name.rpartition(".")[2]: module for name, module in loaded.items() if ".raster." in name}
-    return raster | {"Framebuffer": loaded["paneldraw.framebuffer.framebuffer"].Framebuffer}
+    return raster | {
+        "Framebuffer": loaded["paneldraw.framebuffer.framebuffer"].Framebuffer,
+        "Planner": loaded["paneldraw.update.planner"].Planner,
+    }
 
 
 def watch(
@@ -404,3 +409,36 @@ def filtered_edges() -> str:
             total += at["sign"] * at["volume"]
             rows.append(("+" if at["sign"] > 0 else "-", start, stop, f"{at['d']:.3f}", f"{at['volume']:.4f}"))
     return table("|from|to|d|volume to the right", [*rows, ("=", "", "", "", f"{total:.4f}")]) + panel(fb)
+
+
+def _update() -> Any:
+    """A planner whose pointer stands behind page 2, column 9, and three bytes to bring onto the panel."""
+    planner = plain()["Planner"](SSD1306(), Cost(2, 2))
+    planner.restart()
+    planner.plan()
+    planner.sent()
+    for cells in ([(2, 9)], [(2, 14), (2, 48), (5, 15)]):
+        for cell in cells:
+            planner.fresh[cell] += 1
+        plan = planner.plan()
+        messages = [(kind, bytes(payload)) for kind, payload in plan]
+        planner.sent()
+    return planner, messages
+
+
+def update_steps() -> str:
+    planner, _ = _update()
+    count = planner._count
+    names = [f"page {row}, column {first}" for row, first, _ in planner._pieces[:count].tolist()]
+    rows = []
+    for i, name in enumerate(["where it stands", *names]):
+        lengths = ["" if i == j + 1 else int(planner._lengths[i, j]) for j in range(count)]
+        rows.append([name, *lengths])
+    return table(f"from|to {'|to '.join(names)}", rows)
+
+
+def update_messages() -> str:
+    _, messages = _update()
+    kinds = {COMMAND: "commands", DATA: "data"}
+    rows = [[kinds[kind], f"`{payload.hex(' ')}`", 2 + len(payload)] for kind, payload in messages]
+    return table("message|bytes|on the wire", [*rows, ["", "", sum(int(row[2]) for row in rows)]])

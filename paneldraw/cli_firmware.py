@@ -135,9 +135,9 @@ def _described(transport: SerialTransport, status: Status) -> list[tuple[str, st
     from firmware_protocol.messages import cause_text
 
     device = transport.device
-    rates = ", ".join(map(str, device.bauds)) or "any"
+    rates = f"; it offers {', '.join(map(str, device.bauds))}" if device.bauds else ", where the rate does not matter"
     return [
-        ("port", f"{transport.name} at {transport.baudrate} baud; it offers {rates}"),
+        ("port", f"{transport.name} at {transport.baudrate} baud{rates}"),
         ("firmware", device.firmware or "does not say"),
         ("protocol", f"version {device.version}; it speaks {device.oldest} to {device.newest}"),
         ("panel", _panel(device)),

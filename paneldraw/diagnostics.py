@@ -133,7 +133,8 @@ def detect(url: str | None = None) -> Found:
         if not found.lines:
             found.advice = NO_BUS
     else:
-        raise ValueError(f"detect looks on I2C buses and on the simulated one, not on {url}; try --panel i2c://1")
+        asks = f"paneldraw firmware info {url}" if parts.scheme == "serial" else "--panel i2c://1"
+        raise ValueError(f"detect looks on I2C buses and on the simulated one, not on {url}; try {asks}")
     for port in serial_ports():
         name = port.partition(" ")[0]
         found.lines.append(f"serial port {port}: not asked; try: paneldraw firmware info {name}")

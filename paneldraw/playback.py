@@ -112,7 +112,8 @@ def play(demo: Demo, panel: Panel, name: str, *, frames: float, fps: float, save
             if save_to:
                 pixels = (chip.pixels if chip else fb.pixels).copy()
                 recording.append(Frame(pixels, index / fps, sent, max_level=fb.max_level))
-            caption = f"{name}: {_count(drawn, 'frame')}, {total_bytes / drawn:.0f} bytes each; a whole one has {whole}"
+            each = f"{total_bytes / drawn:.0f} bytes{' each' if drawn > 1 else ''}"
+            caption = f"{name}: {_count(drawn, 'frame')}, {each} on the wire for {whole} of pixels"
             if view:
                 view.show(chip, caption)
             if progress:

@@ -140,7 +140,7 @@ def _i2c(parts: SplitResult) -> PanelURL:
         "i2c",
         _on_i2c(_controller(query.get("chip", _CHIP), query)),
         bus=int(place) if place.isdecimal() else place,
-        address=_number(address, "address") if address else _ADDRESS,
+        address=_number(address, "address", "0x3c") if address else _ADDRESS,
         **_settings(query),
     )
 
@@ -161,7 +161,7 @@ def _serial(parts: SplitResult) -> SerialURL:
     query = _query(parts, *_SERIAL)
     if "chip" in query:
         _controller(query["chip"], {name: query[name] for name in ("size",) if name in query})
-    rate = _number(query["baudrate"], "baudrate") if "baudrate" in query else None
+    rate = _number(query["baudrate"], "baudrate", "115200") if "baudrate" in query else None
     return SerialURL(place, rate, query, **_settings(query))
 
 
@@ -197,14 +197,14 @@ def _on_i2c(controller: Controller) -> Controller:
 def _settings(query: dict[str, str]) -> dict[str, Any]:
     settings: dict[str, Any] = {}
     if "rotate" in query:
-        settings["rotate"] = _number(query["rotate"], "rotate")
+        settings["rotate"] = _number(query["rotate"], "rotate", "180")
     if "on_close" in query:
         settings["on_close"] = query["on_close"]
     return settings
 
 
-def _number(text: str, name: str) -> int:
+def _number(text: str, name: str, example: str) -> int:
     try:
         return int(text, 0)
     except ValueError:
-        raise ValueError(f"{name} must be a whole number, such as 60 or 0x3c, not {text!r}") from None
+        raise ValueError(f"{name} must be a whole number, such as {example}, not {text!r}") from None

@@ -1,9 +1,11 @@
-"""The cheapest way to write some bytes by page pointer, found by trying everything."""
+"""The cheapest way to write some bytes by page pointer, found by trying everything or every order."""
 
 from __future__ import annotations
 
 import heapq
 import itertools
+
+import numpy as np
 
 
 def cheapest(controller, cost, cells, page, column):
@@ -59,3 +61,39 @@ def _commands(opening, chained, state, pages, uppers):
             yield 1 + (0 if message == "command" else opening), (todo, *pointer, "command")
         if chained is not None:
             yield 2 + (0 if message == "chain" else chained), (todo, *pointer, "chain")
+
+
+def shortest(cost, pieces, page, column):
+    """Bytes of the shortest path through pieces (page, first, end) of a 128-column RAM whose pointer wraps.
+
+    Every order counts: set by set of pieces the least bytes to have written them and to stand behind one of them.
+    """
+    places = [(page, first, end) for page, first, end in pieces]
+    begin = [_step(cost, (page, column), piece, opening=cost.data) for piece in places]
+    between = np.array([[_step(cost, (one[0], one[2] % 128), other) for other in places] for one in places])
+    least = np.full((1 << len(places), len(places)), 1 << 30)
+    for last, length in enumerate(begin):
+        least[1 << last, last] = length
+    for visited in range(1, len(least)):
+        onward = (least[visited][:, np.newaxis] + between).min(axis=0)
+        for following in range(len(places)):
+            if not visited >> following & 1:
+                rest = visited | 1 << following
+                least[rest, following] = min(least[rest, following], onward[following])
+    return int(least[-1].min()) + sum(end - first for _, first, end in places)
+
+
+def _step(cost, place, piece, opening=0):
+    """Bytes from a place of the pointer to the start of a piece: all in between sent, or a jump with its ends shifted.
+
+    At the start of a plan no data message is open: to send at once costs `opening`, and nothing can be sent first.
+    """
+    (page, column), (to_page, to_column, _) = place, piece
+    shifts = range(8)
+    best = opening + (to_column - column) % 128 if page == to_page else 1 << 20
+    for late, early in itertools.product(range(1) if opening else shifts, shifts):
+        after, start = (column + late) % 128, (to_column - early) % 128
+        commands = (page != to_page) + (after % 16 != start % 16) + (after // 16 != start // 16)
+        jump = cost.command + commands + cost.data if commands else opening
+        best = min(best, jump + late + early)
+    return best

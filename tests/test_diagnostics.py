@@ -125,9 +125,16 @@ def test_what_to_do_without_bus_and_without_panel(machine, capsys):
     assert "SDA" in output.err
 
 
-@pytest.mark.parametrize("url", ["spi://0.0", "serial:///dev/ttyACM0", "panel"])
-def test_where_detect_cannot_look(url):
-    with pytest.raises(ValueError, match="i2c://"):
+@pytest.mark.parametrize(
+    ("url", "advice"),
+    [
+        ("spi://0.0", "--panel i2c://1"),
+        ("serial:///dev/ttyACM0", "paneldraw firmware info serial:///dev/ttyACM0"),
+        ("panel", "--panel i2c://1"),
+    ],
+)
+def test_where_detect_cannot_look(url, advice):
+    with pytest.raises(ValueError, match=f"try {advice}$"):
         diagnostics.detect(url)
 
 

@@ -1,16 +1,18 @@
 from __future__ import annotations
 
 import importlib
+from dataclasses import replace
 
 import numpy as np
 import pytest
-from exhaustive import cheapest
+from exhaustive import cheapest, shortest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from paneldraw import simulator
 from paneldraw.controllers import SH1106, SSD1306, SSD1327, Controller, PagePointer
 from paneldraw.transports import COMMAND, DATA, Cost
+from paneldraw.update.paths import EXACT
 
 I2C = Cost(2, 2, 2)
 SIZES = [(128, 64), (128, 32), (96, 16), (72, 40), (64, 48), (64, 32)]
@@ -289,6 +291,50 @@ def _assert_cheapest(update, cost):
         planner.fresh[cell] += 1
     wanted = {(page, controller.column_offset + column) for page, column in cells}
     assert planner.plan().cost == cheapest(controller, cost, wanted, page, pointer)
+
+
+def _scattered(random, count):
+    """A frame of so many changed pieces, as (page, first, end), and where the pointer stands."""
+    planner = importlib.import_module("paneldraw.update").Planner(replace(SSD1306(), window=None), I2C)
+    planner.restart()
+    planner.plan()
+    planner.sent()
+    page, column = (int(end) for end in (random.integers(8), random.integers(127)))
+    planner.fresh[page, column] += 1
+    planner.plan()
+    planner.sent()
+    free = np.ones((8, 128), bool)
+    while count:
+        at, first, size = random.integers(8), random.integers(125), random.integers(1, 4)
+        if free[at, max(first - 1, 0) : first + size + 1].all():
+            free[at, first : first + size] = False
+            count -= 1
+    planner.fresh[~free] += 1
+    edges = np.diff(np.pad(~free, ((0, 0), (1, 1))).astype(int))
+    starts, stops = np.argwhere(edges == 1), np.argwhere(edges == -1)
+    pieces = [(int(at), int(first), int(end)) for (at, first), (_, end) in zip(starts, stops, strict=True)]
+    return planner.plan().cost, pieces, page, column + 1
+
+
+@pytest.mark.parametrize("count", [1, 4, 8, EXACT])
+def test_up_to_the_exact_searchs_pieces_no_order_is_cheaper(count):
+    random = np.random.default_rng(count)
+    for _ in range(20):
+        cost, *update = _scattered(random, count)
+        assert cost == shortest(I2C, *update)
+
+
+def test_with_more_pieces_the_order_found_is_near_the_cheapest():
+    """A fixed walk of updates, of which docs and docstrings say how near: none is guaranteed."""
+    random = np.random.default_rng(5)
+    costs, best = [], []
+    for count in [EXACT + 1, EXACT + 2, EXACT + 3] * 8:
+        cost, *update = _scattered(random, count)
+        costs.append(cost)
+        best.append(shortest(I2C, *update))
+    above = np.subtract(costs, best)
+    assert 0 <= above.min() <= above.max() <= 4
+    assert sum(costs) <= 1.015 * sum(best)
 
 
 def test_more_pieces_than_the_exact_search_takes_still_beat_page_by_page():

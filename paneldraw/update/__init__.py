@@ -1,4 +1,4 @@
-"""What changed since the last frame, and the cheapest way to send it."""
+"""What changed since the last frame, and the cheapest way found to send it."""
 
 from __future__ import annotations
 

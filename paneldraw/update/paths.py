@@ -1,5 +1,5 @@
 # cython: language_level=3, boundscheck=False, wraparound=False, initializedcheck=False, cdivision=True
-"""The shortest path that visits every place once, from a start to wherever it ends; steps differ by direction.
+"""A short path that visits every place once, from a start to wherever it ends; steps differ by direction.
 
 ``lengths[i + 1, j]`` is the length of the step from place i to place j, ``lengths[0, j]`` of the one from the start.
 Places belong to regions, and come region by region.
@@ -12,7 +12,8 @@ import cython
 EXACT = 9
 """Up to so many places the path is the shortest there is."""
 IMPROVED = 24
-"""Up to so many it is improved step by step; more are not to be asked of this module."""
+"""Up to so many it is improved step by step, until no move makes it shorter, which need not be the shortest; more are
+not to be asked of this module."""
 
 _EXACT = cython.declare(cython.int, EXACT)
 _FAR = cython.declare(cython.int, 1 << 24)

@@ -1,14 +1,16 @@
 # cython: language_level=3, boundscheck=False, wraparound=False, initializedcheck=False, cdivision=True
-"""From the shadow of the panel's RAM and a new frame to the cheapest plan.
+"""From the shadow of the panel's RAM and a new frame to a plan of few bytes.
 
 A *piece* is a stretch of changed cells in one row. Which ways there are, the controller says.
 
 **Page pointer.** A plan visits the pieces in some order. Between two of them it either sends the bytes in between, or
 begins a new data message after those of the three pointer commands that do not hold already; the pointer moves with
 the data and may be driven some bytes further, or the next piece be begun some bytes early, where that spares commands.
-So every step has a length, and the cheapest plan is the shortest path through all pieces: the shortest of all up to
-`paths.EXACT` pieces. With more, pieces a byte apart are taken for one, and the path is the best found: no longer than
-page by page from left to right with every choice on the way the best one.
+So every step has a length, and the cheapest plan is the shortest path through all pieces. Up to `paths.EXACT` (9)
+pieces the path is the shortest there is, and no page pointer plan is cheaper. With more it is only the best found:
+pieces a byte apart are taken for one, and up to `paths.IMPROVED` (24) the order page by page, left to right is improved
+by moving stretches of it; with more that order stays. Such a path is never longer than page by page, and seldom the
+shortest: on random frames of 10 to 14 pieces 1 % above it in the mean, 4 bytes at the most.
 
 **Windows.** Boxes are written by windows that are filled across or down. Candidates are the bounding box; boxes grown
 from the pieces by joining those that are cheaper together; of these the ones taller than a row, with the page pointer
@@ -21,7 +23,7 @@ after the other, next always the one of those at hand that costs least beyond it
   where the pointer stands, where the cells in between are cheaper than a command.
 - The last box ends with its last changed cell. Up to `windows.TURNED` boxes are tried across and down.
 
-The plan is the cheapest of all these.
+The plan is the cheapest of all these; a cheaper one of windows may exist.
 """
 
 from __future__ import annotations
@@ -121,7 +123,7 @@ class Planner:
         self._table = np.zeros((1 << EXACT, EXACT), np.intc)
 
     def plan(self) -> Plan:
-        """Return the cheapest plan from what the panel holds to `fresh`. It is valid until the next one.
+        """Return the cheapest plan found from what the panel holds to `fresh`. It is valid until the next one.
 
         Once it went out call `sent`; if it failed, `forget`.
         """
@@ -224,7 +226,7 @@ class Planner:
 
     @cython.cfunc
     def _choose(self) -> cython.void:
-        """Write the cheapest plan for the pieces."""
+        """Write the cheapest plan found for the pieces."""
         w: Writer = self._writer
         windows: Windows = self._windows
         way: cython.int = _POINTER
