@@ -126,8 +126,7 @@ def paint(
     """
     k: cython.Py_ssize_t
     if n == 1:
-        for k in range(count):
-            surface.span(y, spans[2 * k], spans[2 * k + 1])
+        surface.spans(y, spans, count)
         return
     a: cython.Py_ssize_t
     b: cython.Py_ssize_t

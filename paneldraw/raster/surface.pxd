@@ -20,5 +20,7 @@ cdef class Surface:
     cdef void point(self, Py_ssize_t x, Py_ssize_t y) noexcept nogil
     cdef void span(self, Py_ssize_t y, Py_ssize_t x1, Py_ssize_t x2) noexcept nogil
     cdef void count_in(self, int n, int full) noexcept nogil
+    cdef void spans(self, Py_ssize_t y, Py_ssize_t *bounds, Py_ssize_t count) noexcept nogil
+    cdef void _ink(self, Py_ssize_t row, Py_ssize_t x1, Py_ssize_t x2) noexcept nogil
     cdef long long blend(self, Py_ssize_t y, Py_ssize_t x1, Py_ssize_t x2, long long open_spans) noexcept nogil
     cdef void blend_eight(self, Py_ssize_t y, Py_ssize_t x, unsigned long long counts) noexcept nogil

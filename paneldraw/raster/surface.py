@@ -12,6 +12,7 @@ import numpy as np
 OPS = {"over": 0, "xor": 1, "add": 2, "max": 3, "clear": 4}
 
 
+@cython.final
 @cython.cclass
 class Surface:
     """A rectangle of pixels, one byte each, in memory that a numpy array owns.
@@ -142,19 +143,33 @@ class Surface:
     @cython.exceptval(check=False)
     def span(self, y: cython.Py_ssize_t, x1: cython.Py_ssize_t, x2: cython.Py_ssize_t) -> cython.void:
         """Ink the pixels ``x1 <= x < x2`` of row `y` that are in the window."""
+        if self.top <= y < self.bottom:
+            self._ink(y * self.stride, max(x1, self.left), min(x2, self.right))
+
+    @cython.cfunc
+    @cython.nogil
+    @cython.exceptval(check=False)
+    def spans(self, y: cython.Py_ssize_t, bounds: cython.p_Py_ssize_t, count: cython.Py_ssize_t) -> cython.void:
+        """Ink `count` spans of a row that is in the window: ``bounds[2 k] <= x < bounds[2 k + 1]``."""
+        k: cython.Py_ssize_t
+        for k in range(count):
+            self._ink(y * self.stride, max(bounds[2 * k], self.left), min(bounds[2 * k + 1], self.right))
+
+    @cython.cfunc
+    @cython.inline
+    @cython.nogil
+    @cython.exceptval(check=False)
+    def _ink(self, row: cython.Py_ssize_t, x1: cython.Py_ssize_t, x2: cython.Py_ssize_t) -> cython.void:
+        """Ink the pixels ``x1 <= x < x2`` of the row that begins at `row`."""
         i: cython.Py_ssize_t
         pixels: cython.p_uchar = self.pixels
         level: cython.uchar
-        if y < self.top or y >= self.bottom:
-            return
-        x1 = max(x1, self.left)
-        x2 = min(x2, self.right)
         if self.op == 0 or self.op == 4:
             level = self.ink[0]
-            for i in range(y * self.stride + x1, y * self.stride + x2):
+            for i in range(row + x1, row + x2):
                 pixels[i] = level
         else:
-            for i in range(y * self.stride + x1, y * self.stride + x2):
+            for i in range(row + x1, row + x2):
                 pixels[i] = self.ink[pixels[i]]
 
     @cython.cfunc
