@@ -19,7 +19,7 @@ from paneldraw.errors import (
 )
 from paneldraw.transports import I2CTransport
 
-SIZES = [(128, 64), (128, 32), (96, 16), (72, 40), (64, 48), (64, 32)]
+SIZES = [(128, 64), (128, 32), (96, 16), (72, 40), (64, 48), (64, 32), (48, 64)]
 
 
 def simulated(query=""):
