@@ -307,7 +307,7 @@ class Panel:
         else:
             raise TypeError(f"source must be a Framebuffer, numpy array or Pillow image, not {type(source).__name__}")
         if pixels.shape != (self._size[1], self._size[0]):
-            size = " x ".join(map(str, pixels.shape[::-1]))
+            size = f"{pixels.shape[1]} x {pixels.shape[0]}" if pixels.ndim == 2 else f"an array of shape {pixels.shape}"
             raise ValueError(f"source must be {self.width} x {self.height} pixels like the panel, not {size}")
         return pixels, max_level
 

@@ -19,7 +19,7 @@ from paneldraw.errors import (
 )
 from paneldraw.transports import I2CTransport
 
-SIZES = [(128, 64), (128, 32), (96, 16), (72, 40), (64, 48), (64, 32)]
+SIZES = [(128, 64), (128, 32), (96, 16), (72, 40), (64, 48), (64, 32), (48, 64)]
 
 
 def simulated(query=""):
@@ -134,7 +134,7 @@ def test_every_kind_of_picture():
     ("source", "kind", "complaint"),
     [
         (np.zeros((128, 64), np.uint8), ValueError, "128 x 64 pixels like the panel, not 64 x 128"),
-        (np.zeros((64, 128, 3), np.uint8), ValueError, "128 x 64"),
+        (np.zeros((64, 128, 3), np.uint8), ValueError, r"like the panel, not an array of shape \(64, 128, 3\)"),
         (np.zeros(8192, np.uint8), ValueError, "128 x 64"),
         (np.full((64, 128), 2, np.uint8), ValueError, "levels from 0 to 1"),
         (np.full((64, 128), -1), ValueError, "levels from 0 to 1"),

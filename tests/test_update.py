@@ -15,7 +15,7 @@ from paneldraw.transports import COMMAND, DATA, Cost
 from paneldraw.update.paths import EXACT
 
 I2C = Cost(2, 2, 2)
-SIZES = [(128, 64), (128, 32), (96, 16), (72, 40), (64, 48), (64, 32)]
+SIZES = [(128, 64), (128, 32), (96, 16), (72, 40), (64, 48), (64, 32), (48, 64)]
 
 
 class Glass:

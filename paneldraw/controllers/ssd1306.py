@@ -24,6 +24,7 @@ _GLASSES = {
     (72, 40): _Glass(28, 0x12),
     (64, 48): _Glass(32, 0x12),
     (64, 32): _Glass(32, 0x12),
+    (48, 64): _Glass(40, 0x12),
 }
 
 
@@ -44,7 +45,7 @@ def SSD1306(  # noqa: N802 - reads as the chip that it makes
     Parameters
     ----------
     width, height : int, optional
-        Visible pixels: 128x64 (default), 128x32, 96x16, 72x40, 64x48 or 64x32.
+        Visible pixels: 128x64 (default), 128x32, 96x16, 72x40, 64x48, 64x32 or 48x64.
     column_offset : int, optional
         First visible RAM column. Default: what modules of this size have.
     com_pins : int, optional

@@ -13,13 +13,14 @@ from numpy.typing import NDArray
 
 from .commands import Command
 from .frames import Frame, Picture
+from .glass import Glass
 
 _STATUS_OFF = 0x40
 _MAX_VIOLATIONS = 1000
 
 
 class Chip(ABC):
-    """A chip with its glass. Chips say what their commands do, where data goes, and what can be seen.
+    """A chip with its glass. Chips say what their commands do, where data goes, and which levels the RAM holds.
 
     Attributes
     ----------
@@ -33,6 +34,7 @@ class Chip(ABC):
     max_level: ClassVar[int] = 1
     _commands: ClassVar[Sequence[Command]]
     registers: Any
+    _glass: Glass
 
     def __init__(self, width: int, height: int, ram: NDArray[np.uint8], history: int | None, seed: int | None) -> None:
         self.width, self.height = width, height
@@ -134,10 +136,22 @@ class Chip(ABC):
         """Take data into the RAM."""
 
     @abstractmethod
-    def _look(self) -> Picture:
-        """Make a picture of what an eye sees."""
+    def _levels(self) -> Picture:
+        """The RAM as levels, rows and segments."""
 
     # inside
+
+    def _look(self) -> Picture:
+        """Make a picture of what an eye sees."""
+        registers = self.registers
+        if not registers.lit:
+            return np.zeros((self.height, self.width), np.uint8)
+        levels, driven = self._glass.pixels(self._levels(), registers)
+        if registers.all_on:
+            levels = np.full_like(levels, self.max_level)
+        elif registers.inverted:
+            levels = self.max_level - levels
+        return levels * driven[:, np.newaxis].astype(np.uint8)
 
     def _complain(self, violation: str) -> None:
         if violation not in self.violations and len(self.violations) < _MAX_VIOLATIONS:

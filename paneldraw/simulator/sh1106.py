@@ -205,16 +205,8 @@ class SH1106(Chip):
     def _registers(self) -> Registers:
         return Registers(external_vcc=self.external_vcc)
 
-    def _look(self) -> Picture:
-        registers = self.registers
-        if not registers.lit:
-            return np.zeros((self.height, self.width), np.uint8)
-        levels, driven = self._glass.pixels(np.unpackbits(self._ram, axis=0, bitorder="little"), registers)
-        if registers.all_on:
-            levels = np.ones_like(levels)
-        elif registers.inverted:
-            levels = 1 - levels
-        return levels * driven[:, np.newaxis].astype(np.uint8)
+    def _levels(self) -> Picture:
+        return np.unpackbits(self._ram, axis=0, bitorder="little")
 
     def _store(self, data: NDArray[np.uint8]) -> None:
         registers = self.registers

@@ -62,6 +62,21 @@ class Registers:
     scrolling: bool = False
 
     @property
+    def lit(self) -> bool:
+        """Whether the panel is on, and not all off by A6."""
+        return self.on and self.display != 0xA6
+
+    @property
+    def all_on(self) -> bool:
+        """Whether every pixel is at the highest level."""
+        return self.display == 0xA5
+
+    @property
+    def inverted(self) -> bool:
+        """Whether levels are turned over."""
+        return self.display == 0xA7
+
+    @property
     def com_reversed(self) -> bool:
         """Whether COM lines are reversed."""
         return bool(self.remap & _COM_REMAP)
@@ -239,18 +254,8 @@ class SSD1327(Chip):
                 continue
             super()._obey(bytes((byte,)))
 
-    def _look(self) -> Picture:
-        registers = self.registers
-        if not registers.on:
-            return np.zeros((self.height, self.width), np.uint8)
-        levels, driven = self._glass.pixels(self._ram, registers)
-        if registers.display == 0xA5:
-            levels = np.full_like(levels, self.max_level)
-        elif registers.display == 0xA6:
-            levels = np.zeros_like(levels)
-        elif registers.display == 0xA7:
-            levels = self.max_level - levels
-        return levels * driven[:, np.newaxis].astype(np.uint8)
+    def _levels(self) -> Picture:
+        return self._ram
 
     def _store(self, data: NDArray[np.uint8]) -> None:
         r = self.registers

@@ -259,17 +259,15 @@ class Planner:
             cost = windows.cost(tall) + self._path_cost(self._rest, flat)
             if cost < best:
                 best, way = cost, _MIXED
-        if way == _STREAM:
+        if way == _POINTER:
+            self._write_path(self._order, self._count)
+        elif way == _STREAM:
             w.cells(stream)
             w.finish()
-        elif way == _BOUNDING:
-            windows.write(windows.bounding(self._count))
-        elif way == _GROWN:
-            windows.write(grown)
         elif way == _MIXED:
             self._write_mixed(tall, flat)
         else:
-            self._write_path(self._order, self._count)
+            windows.write(grown if way == _GROWN else windows.bounding(self._count))
 
     @cython.cfunc
     def _outside(self, boxes: cython.int) -> cython.int:

@@ -17,6 +17,7 @@ MODULES = {
     (72, 40): (28, 0x27, 0x12),
     (64, 48): (32, 0x2F, 0x12),
     (64, 32): (32, 0x1F, 0x12),
+    (48, 64): (40, 0x3F, 0x12),
 }
 
 
@@ -52,7 +53,7 @@ def test_mirrored_glass(size, mirror):
 
 
 def test_a_size_that_no_module_has_names_those_that_are():
-    with pytest.raises(ValueError, match=r"128x64, 128x32, 96x16, 72x40, 64x48, 64x32, not 64x128"):
+    with pytest.raises(ValueError, match=r"128x64, 128x32, 96x16, 72x40, 64x48, 64x32, 48x64, not 64x128"):
         SSD1306(64, 128)
 
 
