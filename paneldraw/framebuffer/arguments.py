@@ -329,8 +329,12 @@ def table(name: str, rows: Any, columns: int) -> NDArray[Any]:
         raise TypeError(f"{name} must hold numbers, not {table.dtype}")
     if table.ndim != 2 or table.shape[1] != columns:
         raise ValueError(f"{name} must have the shape (n, {columns}), not {table.shape}")
-    if table.dtype.kind == "f" and not np.isfinite(table).all():
-        raise ValueError(f"{name} must be finite, and holds NaN or infinity")
+    if table.dtype.kind == "f":
+        if not np.isfinite(table).all():
+            raise ValueError(f"{name} must be finite, and holds NaN or infinity")
+        # Between negative numbers or fractions, numpy makes floats of whole numbers too large for them.
+        if float(abs(table).max()) >= 1 << 53:
+            return np.asarray(rows, object)
     return table
 
 

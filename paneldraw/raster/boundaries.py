@@ -426,8 +426,8 @@ class Boundary:
             edges[edge].segment = self.count
         if cython.compiled:
             if self.count == self.capacity:
-                self.capacity = 2 * self.capacity + 64
-                self.kept_segments.extend(bytes(96 * self.capacity - len(self.kept_segments)))
+                self.kept_segments.extend(bytes(96 * (self.capacity + 64)))
+                self.capacity = len(self.kept_segments) // 96
                 self.segments = cython.cast(cython.p_double, cython.cast(cython.p_char, self.kept_segments))
             at = self.segments + 12 * self.count
             at[0] = x

@@ -100,6 +100,20 @@ def test_objects_of_any_size_equal_the_single_calls(package, rows, style):
     assert together == apart
 
 
+whole = st.one_of(st.integers(-30, 50), st.integers(-(2**65), 2**65))
+
+
+@given(st.lists(st.tuples(*[st.one_of(whole, st.floats(-30, 50))] * 4), max_size=4))
+@example([(-24, 2**64 - 3, 25, -(2**30))])
+@example([(0.5, 2**60 + 1, 20, -(2**60))])
+def test_whole_numbers_of_any_size_in_lists_equal_the_single_calls(package, rows):
+    together, apart = package.Framebuffer(WIDTH, HEIGHT), package.Framebuffer(WIDTH, HEIGHT)
+    together.lines(rows, dash=(4, 3), op="xor")
+    for row in rows:
+        apart.line(*row, dash=(4, 3), op="xor")
+    assert together == apart
+
+
 @given(st.lists(st.tuples(*[st.integers(-30, 50)] * 4), min_size=1, max_size=4))
 def test_arrays_in_any_order_and_lists_are_the_same(package, rows):
     pictures = []
