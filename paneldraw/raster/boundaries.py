@@ -49,7 +49,7 @@ _SAME = cython.declare(cython.double, 1e-9)
 class Boundary:
     """The segments that bound a shape within a box; memory is kept for the next shape.
 
-    Segment k is eleven numbers from number 10 k on: where it begins, x and y; the unit vector along it, which points
+    Segment k is twelve numbers from number 12 k on: where it begins, x and y; the unit vector along it, which points
     downward; its length; where it ends, x and y; its sign, 1 with the inside to its right and -1 to its left; and
     whether another one with the same sign ends where it begins, and begins where it ends; its slope; and
     room for a number.
