@@ -91,9 +91,18 @@ def test_a_palette_says_which_level_stands_for_which(package):
         (np.ones((2, 2), np.uint8), {"key": 1.5}, TypeError, "key must be a whole number"),
     ],
 )
-def test_blit_refuses_what_it_cannot_copy(package, source, options, error, words):
+@pytest.mark.parametrize("x", [0, 99])
+def test_blit_refuses_what_it_cannot_copy(package, source, options, error, words, x):
     with pytest.raises(error, match=words):
-        package.Framebuffer(8, 6, 4).blit(source, 0, 0, **options)
+        package.Framebuffer(8, 6, 4).blit(source, x, 0, **options)
+
+
+def test_blit_of_no_pixels_changes_none(package):
+    fb = noise(package, 8, 6)
+    before = fb.pixels.copy()
+    for options in ({}, {"key": 0}, {"palette": [1]}):
+        fb.blit(np.zeros((0, 3), np.uint8), 1, 1, **options)
+    assert (fb.pixels == before).all()
 
 
 @given(coordinates, coordinates, st.one_of(st.none(), st.integers(0, 15)))

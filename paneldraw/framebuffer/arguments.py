@@ -41,6 +41,9 @@ FAR = cython.declare(cython.longlong, 1 << 62)
 # Pixels that are handled in 256ths in 64-bit arithmetic.
 FIXED_REACH = cython.declare(cython.longlong, 1 << 18)
 
+# The machine numbers that `quick_rows` reads, and how large they are here.
+_SIZES = {kind: array(kind).itemsize for kind in "hilqfd"}
+
 # Dashes longer than any path, in 256ths.
 _ENDLESS = 1 << 100
 
@@ -97,8 +100,15 @@ def quick_rows(source: Any, columns: cython.Py_ssize_t, unit: cython.longlong, r
     rows: cython.Py_ssize_t = view.shape[0] // 2 if flat else view.shape[0]
     across: cython.Py_ssize_t = view.strides[0] if flat else view.strides[1]
     down: cython.Py_ssize_t = 2 * view.strides[0] if flat else view.strides[0]
-    kind: cython.char = view.format[0] if view.format[1] == 0 else 0
+    kind: cython.char = view.format[0]
     start: cython.p_char = cython.cast(cython.p_char, view.buf)
+    # Behind suboffsets there are addresses; and not every processor reads numbers from odd ones.
+    places: cython.size_t = cython.cast(cython.size_t, start) | across | down
+    if _SIZES.get(memory.format) != view.itemsize or view.suboffsets != cython.NULL or places & (view.itemsize - 1):
+        return None
+    # A repeated row takes no memory, and there may be more of them than memory holds.
+    if rows > cython.cast(cython.Py_ssize_t, cython.cast(cython.size_t, -1) >> 1) // (8 * columns):
+        raise MemoryError
     numbers = bytearray(8 * columns * rows)
     to: cython.p_longlong = pointer_to_int64(numbers)
     row: cython.Py_ssize_t
@@ -116,15 +126,17 @@ def quick_rows(source: Any, columns: cython.Py_ssize_t, unit: cython.longlong, r
 def _read(
     at: cython.p_char, kind: cython.char, unit: cython.longlong, reach: cython.longlong, to: cython.p_longlong
 ) -> cython.bint:
-    """Write the number at an address, of the kind that a buffer's format names; return whether that was possible."""
+    """Write the number at an address, of a kind in `_SIZES`; return whether that was possible."""
     number: cython.longlong
-    if kind == b"l" or kind == b"q":
+    if kind == b"q":
         number = cython.cast(cython.p_longlong, at)[0]
+    elif kind == b"l":
+        number = cython.cast(cython.p_long, at)[0]
     elif kind == b"i":
         number = cython.cast(cython.p_int, at)[0]
     elif kind == b"h":
         number = cython.cast(cython.p_short, at)[0]
-    elif kind == b"d" or kind == b"f":
+    else:
         exact: cython.double = (
             cython.cast(cython.p_double, at)[0] if kind == b"d" else cython.cast(cython.p_float, at)[0]
         )
@@ -134,10 +146,10 @@ def _read(
         number = floored(exact)
         to[0] = number + (exact - number >= 0.5)
         return True
-    else:
+    if not -reach <= number <= reach:
         return False
     to[0] = number * unit
-    return -reach <= number <= reach
+    return True
 
 
 @cython.cclass
@@ -317,8 +329,12 @@ def table(name: str, rows: Any, columns: int) -> NDArray[Any]:
         raise TypeError(f"{name} must hold numbers, not {table.dtype}")
     if table.ndim != 2 or table.shape[1] != columns:
         raise ValueError(f"{name} must have the shape (n, {columns}), not {table.shape}")
-    if table.dtype.kind == "f" and not np.isfinite(table).all():
-        raise ValueError(f"{name} must be finite, and holds NaN or infinity")
+    if table.dtype.kind == "f":
+        if not np.isfinite(table).all():
+            raise ValueError(f"{name} must be finite, and holds NaN or infinity")
+        # Between negative numbers or fractions, numpy makes floats of whole numbers too large for them.
+        if float(abs(table).max()) >= 1 << 53:
+            return np.asarray(rows, object)
     return table
 
 

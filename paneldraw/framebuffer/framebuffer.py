@@ -47,7 +47,7 @@ class Framebuffer(Shapes):
         Size in pixels, 1 to 65536.
     depth : {1, 2, 4, 8}, default 1
         Bits a pixel. Levels run from 0 (dark) to ``2**depth - 1``, and a drawing call's default level is the highest.
-    antialias : Supersample or None, default None
+    antialias : Supersample, ConeFilter or None, default None
         How shapes are anti-aliased where a call does not say. With one bit a pixel, an anti-aliased shape lights the
         pixels that it covers by half or more; with more, its level is mixed with what is there.
 
@@ -56,7 +56,7 @@ class Framebuffer(Shapes):
     pixels : numpy.ndarray
         The levels, a writable uint8 array of shape (height, width) over the same memory.
     width, height, depth, max_level : int
-    antialias : Supersample or None
+    antialias : Supersample, ConeFilter or None
 
     Raises
     ------
@@ -250,6 +250,7 @@ class Framebuffer(Shapes):
         #...#
         .#.#.
         """
+        key = size("key", key)
         levels = pictures.levels_for(source, self.surface.max_level, palette)
         part = self._visible(whole("x", x), whole("y", y), levels.shape[1], levels.shape[0])
         if part is None:
@@ -258,7 +259,6 @@ class Framebuffer(Shapes):
         levels = levels[its]
         if np.may_share_memory(levels, self.pixels):
             levels = levels.copy()
-        key = size("key", key)
         if key < 0:
             self.pixels[mine] = levels
         else:

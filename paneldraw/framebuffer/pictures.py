@@ -140,7 +140,7 @@ def levels_for(source: Any, max_level: int, palette: Any = None) -> Levels:
         table = np.asarray(getattr(palette, "pixels", palette)).ravel()
         if table.dtype.kind not in "iu" or not table.size or table.min() < 0 or table.max() > max_level:
             raise ValueError(f"palette must hold levels from 0 to {max_level}")
-        if levels.max() >= len(table):
+        if levels.size and levels.max() >= len(table):
             raise ValueError(f"palette must have a level for each of the source, and has none for {levels.max()}")
         return table.astype(np.uint8)[levels]
     of = getattr(source, "max_level", max_level)

@@ -49,7 +49,7 @@ _SAME = cython.declare(cython.double, 1e-9)
 class Boundary:
     """The segments that bound a shape within a box; memory is kept for the next shape.
 
-    Segment k is eleven numbers from number 10 k on: where it begins, x and y; the unit vector along it, which points
+    Segment k is twelve numbers from number 12 k on: where it begins, x and y; the unit vector along it, which points
     downward; its length; where it ends, x and y; its sign, 1 with the inside to its right and -1 to its left; and
     whether another one with the same sign ends where it begins, and begins where it ends; its slope; and
     room for a number.
@@ -426,8 +426,8 @@ class Boundary:
             edges[edge].segment = self.count
         if cython.compiled:
             if self.count == self.capacity:
-                self.capacity = 2 * self.capacity + 64
-                self.kept_segments.extend(bytes(96 * self.capacity - len(self.kept_segments)))
+                self.kept_segments.extend(bytes(96 * (self.capacity + 64)))
+                self.capacity = len(self.kept_segments) // 96
                 self.segments = cython.cast(cython.p_double, cython.cast(cython.p_char, self.kept_segments))
             at = self.segments + 12 * self.count
             at[0] = x

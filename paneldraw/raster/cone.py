@@ -88,7 +88,7 @@ class ConeFilter:
             raise TypeError(f"radius must be a number of pixels, not {type(radius).__name__}")
         if not 0.5 <= radius <= 4:
             raise ValueError(f"radius must be from 0.5 to 4 pixels, not {radius}")
-        if filter not in HEIGHTS:
+        if filter not in tuple(HEIGHTS):
             raise ValueError(f"filter must be one of {', '.join(map(repr, HEIGHTS))}, not {filter!r}")
         if not isinstance(resolution, int) or isinstance(resolution, bool):
             raise TypeError(f"resolution must be a whole number of steps, not {type(resolution).__name__}")

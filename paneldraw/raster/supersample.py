@@ -53,6 +53,10 @@ class Supersample:
     ....37bf
     """
 
+    def __cinit__(self) -> None:
+        # Also of what no `__init__` has seen, divisions by n are divisions.
+        self.n = 1
+
     def __init__(self, n: object = 4, reference: object = "center") -> None:
         if isinstance(n, bool) or not isinstance(n, int):
             raise TypeError(f"n must be a whole number of sub-pixels from 1 to 16, not {type(n).__name__}")

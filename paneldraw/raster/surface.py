@@ -75,7 +75,7 @@ class Surface:
         """From now on count coverage in n sub-pixels a pixel of a row; a count of `full` is the whole pixel."""
         one: cython.longlong = 1
         if self.n != n or self.full != full:
-            # Divisions as multiplications: by n, exact below 2**24; by 2 * full, exact below 2**18.
+            # Divisions as multiplications: by n, exact below 2**32 / n; by 2 * full, exact below 512 * full.
             self.n = n
             self.n_inverse = (one << 32) // n + 1
             self.full = full

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from array import array
 from fractions import Fraction
 
@@ -10,6 +11,8 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
+
+import paneldraw
 
 WIDTH, HEIGHT = 24, 16
 
@@ -94,6 +97,20 @@ def test_objects_of_any_size_equal_the_single_calls(package, rows, style):
     for row in rows:
         apart.line(*row, **style, op="xor")
         apart.pixel(*row[:2], 1, op="xor")
+    assert together == apart
+
+
+whole = st.one_of(st.integers(-30, 50), st.integers(-(2**65), 2**65))
+
+
+@given(st.lists(st.tuples(*[st.one_of(whole, st.floats(-30, 50))] * 4), max_size=4))
+@example([(-24, 2**64 - 3, 25, -(2**30))])
+@example([(0.5, 2**60 + 1, 20, -(2**60))])
+def test_whole_numbers_of_any_size_in_lists_equal_the_single_calls(package, rows):
+    together, apart = package.Framebuffer(WIDTH, HEIGHT), package.Framebuffer(WIDTH, HEIGHT)
+    together.lines(rows, dash=(4, 3), op="xor")
+    for row in rows:
+        apart.line(*row, dash=(4, 3), op="xor")
     assert together == apart
 
 
@@ -192,3 +209,41 @@ def test_points_come_from_any_buffer(package):
     expected.poly(0, 0, [(1, 2), (20, 5), (7, 15)], fill=True)
     assert drawn.pixels.any()
     assert (drawn.pixels == expected.pixels).all()
+
+
+@pytest.mark.parametrize("kind", "bBhHiIlLqQ?efd")
+def test_buffers_of_every_kind_of_number(package, kind):
+    """Where a kind is of another size than elsewhere, as l is on small boards, or lies at odd addresses."""
+    numbers = [1, 0, 1, 1] if kind == "?" else [1, 2, 20, 5]
+    memory = np.array([numbers], kind)
+    odd = np.frombuffer(b"?" + memory.tobytes(), kind, offset=1).reshape(1, 4)
+    expected = package.Framebuffer(WIDTH, HEIGHT)
+    expected.line(*numbers)
+    for form in (memory, odd, memoryview(memory), memoryview(odd)):
+        fb = package.Framebuffer(WIDTH, HEIGHT)
+        fb.lines(form)
+        assert fb == expected
+        fb.clear()
+        fb.points(np.asarray(form).reshape(2, 2))
+        fb.polyline(np.asarray(form)[0])
+        assert fb == expected
+
+
+def test_buffers_of_pointers_are_no_numbers(package):
+    """A buffer may hold addresses of its rows in their stead."""
+    buffers = pytest.importorskip("_testbuffer", reason="a part of CPython's own tests")
+    rows = buffers.ndarray([1, 2, 20, 5, 7, 15], shape=[3, 2], format="q", flags=buffers.ND_PIL)
+    drawn, expected = package.Framebuffer(WIDTH, HEIGHT), package.Framebuffer(WIDTH, HEIGHT)
+    drawn.polyline(rows)
+    expected.polyline([(1, 2), (20, 5), (7, 15)])
+    assert drawn == expected
+
+
+@pytest.mark.parametrize(("call", "columns"), [("lines", 4), ("points", 2), ("polyline", 2)])
+def test_more_rows_than_memory_holds_are_refused(call, columns):
+    """One row repeated so often that the size of them all is 0, modulo a word. Interpreted, it would take forever."""
+    fb = paneldraw.Framebuffer(WIDTH, HEIGHT)
+    endless = np.broadcast_to(np.int16(0), ((sys.maxsize + 1) // 4 // columns, columns))
+    with pytest.raises(MemoryError):
+        getattr(fb, call)(endless)
+    assert not fb.pixels.any()

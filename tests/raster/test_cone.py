@@ -159,6 +159,7 @@ def test_a_filter_is_a_value(package):
         ({"radius": float("nan")}, ValueError, "radius must be from 0.5 to 4"),
         ({"radius": "1"}, TypeError, "radius must be a number"),
         ({"filter": "tent"}, ValueError, "filter must be one of 'cone', 'box', 'gaussian'"),
+        ({"filter": []}, ValueError, "filter must be one of 'cone', 'box', 'gaussian'"),
         ({"resolution": 7}, ValueError, "resolution must be from 8 to 256"),
         ({"resolution": 8.0}, TypeError, "resolution must be a whole number"),
     ],

@@ -8,6 +8,8 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
+import paneldraw
+
 WIDTH, HEIGHT = 13, 9
 NEAR = 2**18  # pixels; beyond it, and beyond WIDE, the raster computes in another way
 WIDE = 2**12
@@ -148,3 +150,18 @@ def test_every_step_from_nothing_to_the_full_level_is_reached(package, n):
             seen.add(int(fb.pixels[0, 0]))
     reached = {a * b for a in range(n + 1) for b in range(n + 1)}
     assert seen == {(510 * count + n * n) // (2 * n * n) for count in reached}
+
+
+def test_samples_of_a_class_that_forgets_to_initialize_do_not_end_the_process(package):
+    class Forgetful(package.Supersample):
+        def __init__(self):
+            pass
+
+    fb = package.Framebuffer(8, 8)
+    for draw in (lambda: fb.line(0, 0, 7, 3, antialias=Forgetful()), lambda: fb.circle(3, 3, 2, antialias=Forgetful())):
+        try:
+            draw()
+        except AttributeError:
+            assert package is not paneldraw
+        else:
+            assert fb.pixels.any()
