@@ -57,7 +57,8 @@ class ConeFilter:
         Its height: falling to 0 at the rim; the same everywhere; or a bell curve with a standard deviation of half a
         radius, cut off at the rim.
     resolution : int, default 32
-        Steps a radius of the table of volumes, 8 to 256.
+        Steps a radius of the table of volumes, 8 to 256. From 12 on coverage is within 2/255 of the filter's volume
+        above the shape; with less it may be 3/255 from that.
 
     Raises
     ------

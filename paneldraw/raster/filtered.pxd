@@ -5,7 +5,7 @@ from paneldraw.raster.surface cimport Surface
 @cython.final
 cdef class Volumes:
     cdef object kept, kept_sides
-    cdef double radius, scale
+    cdef double radius, scale, sides_scale
     cdef int steps
     cdef double *triangles
     cdef double *sides

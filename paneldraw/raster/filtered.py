@@ -38,6 +38,9 @@ else:
 # In how many steps coverage is handed on; `Surface.blend` divides exactly by no more.
 _STEPS = cython.declare(cython.int, 1024)
 
+# Steps a radius of the table of what is on one side of an edge.
+_SIDES = cython.declare(cython.int, 256)
+
 
 @cython.cclass
 class Volumes:
@@ -48,8 +51,10 @@ class Volumes:
         self.steps = cone.resolution
         self.scale = cone.resolution / cone.radius
         self.kept = _triangles(cone.filter, cone.resolution)
-        # The volume on one side of an endless edge.
-        self.kept_sides = np.ascontiguousarray(cone.table[2 * cone.resolution])
+        # The volume on one side of an endless edge. Toward the rim it is curved the more, the nearer; and all around
+        # a disc as large as the filter there are edges that just touch the rim, whose errors add up.
+        self.kept_sides = np.ascontiguousarray(ConeFilter(1, cone.filter, _SIDES).table[2 * _SIDES])
+        self.sides_scale = _SIDES / cone.radius
         if cython.compiled:
             address: cython.size_t = self.kept.__array_interface__["data"][0]
             self.triangles = cython.cast(cython.p_double, address)
@@ -85,9 +90,8 @@ class Volumes:
     @cython.exceptval(check=False)
     def side(self, d: cython.double) -> cython.double:
         """The volume on that side of an endless straight edge on which the middle is, `d` away; d < 0: the other."""
-        steps: cython.int = 2 * self.steps
-        d = min(max((d + self.radius) * self.scale, 0), steps)
-        i: cython.int = min(floored(d), steps - 1)
+        d = min(max((d + self.radius) * self.sides_scale, 0), 2 * _SIDES)
+        i: cython.int = min(floored(d), 2 * _SIDES - 1)
         return self.sides[i] + (self.sides[i + 1] - self.sides[i]) * (d - i)
 
 

@@ -57,17 +57,18 @@ def add_band(
         return
     hollow = hollow and _is_curve(hole)
     for part in parts:
-        _ring(contours, outer)
+        _ring(contours, outer, outer)
         _finish(contours, corners, part)
         if hollow:
-            _ring(contours, hole)
+            _ring(contours, hole, outer)
             contours.reverse()
             _finish(contours, corners, part)
     for side in sides:
-        _ring(contours, outer)
+        _ring(contours, outer, outer)
         _finish(contours, corners, side)
     if sides:
-        _ring(contours, (*corners, half, half))
+        disc = (*corners, half, half)
+        _ring(contours, disc, disc)
         _finish(contours, corners, [])
 
 
@@ -92,10 +93,11 @@ def _finish(contours: Contours, corners: Any, planes: Any) -> Any:
 
 
 @cython.cfunc
-def _ring(contours: Contours, curve: Any) -> Any:
+def _ring(contours: Contours, curve: Any, outer: Any) -> Any:
     """Add the points of a curve, clockwise as the screen shows it, such that its chords enclose the area that it does.
 
     The points are on a slightly larger curve; not so the ends of quarters between which there are straight sides.
+    There are as many of them as suit the `outer` curve: between two with unlike chords a thin band would swell.
     """
     left: cython.longlong
     top: cython.longlong
@@ -106,7 +108,7 @@ def _ring(contours: Contours, curve: Any) -> Any:
     left, top, right, bottom, a, b = curve
     steps: cython.int = 1
     if a > 0 and b > 0:
-        steps = cython.cast(cython.int, ceil(_QUARTER / _step(a, b, contours.radius * contours.fineness)))
+        steps = cython.cast(cython.int, ceil(_QUARTER / _step(outer[4], outer[5], contours.radius * contours.fineness)))
     quarter: cython.int
     i: cython.int
     step: cython.double = _QUARTER / steps
@@ -136,7 +138,7 @@ def _step(a: cython.double, b: cython.double, radius: cython.double) -> cython.d
     max(a, b) * step**2 / 8.
     """
     flat: cython.double = min(a, b)
-    deviation: cython.double = radius * min(max(0.25 * radius / flat, 0.01), 0.0125)
+    deviation: cython.double = radius * min(max(0.25 * radius / flat, 0.0075), 0.0125)
     return min(1.0, sqrt(8 * min(deviation / flat, 0.025 * radius / max(a, b))))
 
 

@@ -284,7 +284,7 @@ def _fan(
     """A circular sector from (x + dx, y + dy) clockwise to (x + ex, y + ey)."""
     radius: cython.double = hypot(dx, dy)
     steps: cython.int = 1
-    deviation: cython.double = max(0.25, 0.01 * contours.radius)
+    deviation: cython.double = max(0.25, 0.0075 * contours.radius)
     if radius > 0.5:
         steps = cython.cast(cython.int, ceil(angle / (2 * acos(max(0.5, 1 - deviation / radius)))))
     i: cython.int

@@ -162,6 +162,39 @@ def test_large_circles(package, r, filter, angle, width, fill):
         assert_filtered(package, filter, lambda fb, cone: fb.arc(x, y, r, *angles, width=width, antialias=cone), inside)
 
 
+@pytest.mark.parametrize(
+    ("filter", "center", "r", "width"),
+    [
+        ((0.5, "cone"), (-604.3984375, -483.3984375), 777.49609375, 0.04296875),
+        ((1, "cone"), (-762, -718), 1050.53125, 0.25),
+    ],
+)
+def test_thin_rings_do_not_swell(package, filter, center, r, width):
+    """As between two edges of unlike chords, one with its corners where the other has its middles."""
+    x, y = (position + (filter[0] == 1) / 32 for position in center)
+    inside = definitions.band((x, y, x, y), (r, r), width)
+    assert_filtered(package, filter, lambda fb, cone: fb.circle(x, y, r, width=width, antialias=cone), inside)
+
+
+@pytest.mark.parametrize(
+    ("filter", "center", "r"), [((0.5, "gaussian"), (-5015, -5016), 7096), ((0.5, "cone"), (-4671, -4334), 6375)]
+)
+def test_large_discs_do_not_bulge(package, filter, center, r):
+    inside = definitions.band((*center, *center), (r, r), 1, True)
+    assert_filtered(package, filter, lambda fb, cone: fb.circle(*center, r, fill=True, antialias=cone), inside)
+
+
+@pytest.mark.parametrize("resolution", [8, 32])
+@pytest.mark.parametrize("filter", ["cone", "box", "gaussian"])
+@pytest.mark.parametrize("r", [3.4, 3.46875, 3.49])
+def test_a_disc_about_as_large_as_the_filter(package, r, filter, resolution):
+    """Seen from its center all edges are near the rim, where the least errors of all add up."""
+    exact = 255 * definitions.volumes(definitions.band((3, 2, 3, 2), (r, r), 1, True), 4, filter, SIZE)
+    fb = package.Framebuffer(*SIZE, depth=8)
+    fb.circle(3, 2, r, fill=True, antialias=package.ConeFilter(4, filter, resolution))
+    assert abs(fb.pixels - exact).max() <= (2 if resolution == 32 else 3)
+
+
 def draw_shapes(fb, number, shift=(0, 0), **style):
     """One of a few shapes."""
     x, y = shift
