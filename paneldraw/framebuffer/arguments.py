@@ -41,9 +41,6 @@ FAR = cython.declare(cython.longlong, 1 << 62)
 # Pixels that are handled in 256ths in 64-bit arithmetic.
 FIXED_REACH = cython.declare(cython.longlong, 1 << 18)
 
-# The machine numbers that `quick_rows` reads, and how large they are here.
-_SIZES = {kind: array(kind).itemsize for kind in "hilqfd"}
-
 # Dashes longer than any path, in 256ths.
 _ENDLESS = 1 << 100
 
@@ -104,7 +101,9 @@ def quick_rows(source: Any, columns: cython.Py_ssize_t, unit: cython.longlong, r
     start: cython.p_char = cython.cast(cython.p_char, view.buf)
     # Behind suboffsets there are addresses; and not every processor reads numbers from odd ones.
     places: cython.size_t = cython.cast(cython.size_t, start) | across | down
-    if _SIZES.get(memory.format) != view.itemsize or view.suboffsets != cython.NULL or places & (view.itemsize - 1):
+    if _size_of(kind) != view.itemsize or kind == 0 or view.format[1] != 0:
+        return None
+    if view.suboffsets != cython.NULL or places & (view.itemsize - 1):
         return None
     # A repeated row takes no memory, and there may be more of them than memory holds.
     if rows > cython.cast(cython.Py_ssize_t, cython.cast(cython.size_t, -1) >> 1) // (8 * columns):
@@ -123,10 +122,28 @@ def quick_rows(source: Any, columns: cython.Py_ssize_t, unit: cython.longlong, r
 @cython.cfunc
 @cython.inline
 @cython.exceptval(check=False)
+def _size_of(kind: cython.char) -> cython.Py_ssize_t:
+    """How large the numbers are here that a buffer's format names by a letter; 0 for all that are not read."""
+    if kind == b"q":
+        return cython.sizeof(cython.longlong)
+    if kind == b"l":
+        return cython.sizeof(cython.long)
+    if kind == b"i":
+        return cython.sizeof(cython.int)
+    if kind == b"h":
+        return cython.sizeof(cython.short)
+    if kind == b"d":
+        return cython.sizeof(cython.double)
+    return cython.sizeof(cython.float) if kind == b"f" else 0
+
+
+@cython.cfunc
+@cython.inline
+@cython.exceptval(check=False)
 def _read(
     at: cython.p_char, kind: cython.char, unit: cython.longlong, reach: cython.longlong, to: cython.p_longlong
 ) -> cython.bint:
-    """Write the number at an address, of a kind in `_SIZES`; return whether that was possible."""
+    """Write the number at an address, of a kind that has a size; return whether that was possible."""
     number: cython.longlong
     if kind == b"q":
         number = cython.cast(cython.p_longlong, at)[0]
