@@ -14,6 +14,7 @@ cdef class Points:
 
 cdef long long quick(object value) noexcept
 cdef long long quick_256ths(object value) noexcept
-cdef object quick_rows(object source, Py_ssize_t columns, long long unit, long long reach)
+cdef object line_width(object width)
+cdef object quick_rows(object source, Py_ssize_t columns, bint flat, long long unit, long long reach)
 cdef long long *pointer_to_int64(bytearray numbers) except? NULL
 cdef unsigned char *pointer_to_bytes(object array) except? NULL

@@ -78,11 +78,14 @@ def quick_256ths(value: Any) -> cython.longlong:
 
 
 @cython.cfunc
-def quick_rows(source: Any, columns: cython.Py_ssize_t, unit: cython.longlong, reach: cython.longlong) -> Any:
+def quick_rows(
+    source: Any, columns: cython.Py_ssize_t, flat: cython.bint, unit: cython.longlong, reach: cython.longlong
+) -> Any:
     """The rows of an array of numbers, as a bytearray of int64, in 1 / unit of a pixel to the nearest, halves upward.
 
-    An array is what exports a buffer of machine numbers, of shape (n, columns); points, two columns, may also come in
-    turn. None if `source` is nothing of the kind or holds a number beyond +-reach: then others look what it is.
+    An array is what exports a buffer of machine numbers, of shape (n, columns) or, where that is allowed, `flat`, with
+    one row behind the other. None if `source` is nothing of the kind or holds a number beyond +-reach: then others look
+    what it is.
     """
     if not cython.compiled:
         return None
@@ -91,12 +94,12 @@ def quick_rows(source: Any, columns: cython.Py_ssize_t, unit: cython.longlong, r
     except (TypeError, ValueError, BufferError):
         return None
     view = PyMemoryView_GET_BUFFER(memory)
-    flat: cython.bint = view.ndim == 1 and columns == 2 and view.shape[0] % 2 == 0
+    flat = flat and view.ndim == 1 and view.shape[0] % columns == 0
     if not flat and (view.ndim != 2 or view.shape[1] != columns):
         return None
-    rows: cython.Py_ssize_t = view.shape[0] // 2 if flat else view.shape[0]
+    rows: cython.Py_ssize_t = view.shape[0] // columns if flat else view.shape[0]
     across: cython.Py_ssize_t = view.strides[0] if flat else view.strides[1]
-    down: cython.Py_ssize_t = 2 * view.strides[0] if flat else view.strides[0]
+    down: cython.Py_ssize_t = columns * view.strides[0] if flat else view.strides[0]
     kind: cython.char = view.format[0]
     start: cython.p_char = cython.cast(cython.p_char, view.buf)
     # Behind suboffsets there are addresses; and not every processor reads numbers from odd ones.
@@ -187,7 +190,7 @@ class Points:
         i: cython.Py_ssize_t
         number: cython.longlong
         self.exact = None
-        self.kept = quick_rows(source, 2, 256 if fixed else 1, FIXED_REACH if fixed else NEAR)
+        self.kept = quick_rows(source, 2, True, 256 if fixed else 1, FIXED_REACH if fixed else NEAR)
         if self.kept is not None:
             self.values = pointer_to_int64(self.kept)
             self.count = len(self.kept) // 16
@@ -326,8 +329,11 @@ def dash_steps(lengths: list[Int]) -> bytearray:
     return bytearray(array("q", [min((length + 128) >> 8, longest) for length in lengths]))
 
 
-def line_width(width: Any) -> int:
+@cython.cfunc
+def line_width(width: Any) -> Any:
     """A line's width in 256ths of a pixel."""
+    if type(width) is int and width == 1:
+        return 256
     fixed = to_256ths("width", width)
     if fixed <= 0:
         raise ValueError(f"width must be at least 1/256 of a pixel, not {width}")

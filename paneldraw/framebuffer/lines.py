@@ -14,7 +14,6 @@ from paneldraw.framebuffer.arguments import (
     dash_lengths,
     dash_steps,
     integers,
-    line_width,
     not_negative,
     table,
     to_256ths,
@@ -24,11 +23,13 @@ from paneldraw.raster.far import cut_path
 from paneldraw.raster.strokes import CAPS
 
 if cython.compiled:
+    from cython.cimports.paneldraw.framebuffer._words import is_word
     from cython.cimports.paneldraw.framebuffer.arguments import (
         FAR,
         FIXED_REACH,
         NEAR,
         Points,
+        line_width,
         pointer_to_int64,
         quick,
         quick_256ths,
@@ -39,11 +40,13 @@ if cython.compiled:
     from cython.cimports.paneldraw.raster.supersample import Supersample
     from cython.cimports.paneldraw.raster.thick import slab, slab_far
 else:
+    from paneldraw.framebuffer._words import is_word
     from paneldraw.framebuffer.arguments import (
         FAR,
         FIXED_REACH,
         NEAR,
         Points,
+        line_width,
         pointer_to_int64,
         quick,
         quick_256ths,
@@ -157,14 +160,14 @@ class Lines(Paths):
         if antialias is ...:
             antialias = self._antialias
         self._dip(c, op)
-        shape: cython.int = _SQUARE if cap == "square" else choice("cap", cap, CAPS)
-        if antialias is None and width == 1 and dash is None and algorithm == "bresenham":
+        shape: cython.int = _SQUARE if is_word(cap, "square") else choice("cap", cap, CAPS)
+        wide = line_width(width)
+        if antialias is None and wide == 256 and dash is None and is_word(algorithm, "bresenham"):
             self._thin(x1, y1, x2, y2)
             return
-        dda: cython.bint = False if algorithm == "bresenham" else choice("algorithm", algorithm, _ALGORITHMS)
+        dda: cython.bint = False if is_word(algorithm, "bresenham") else choice("algorithm", algorithm, _ALGORITHMS)
         if not isinstance(antialias, Supersample):
             as_samples(antialias)
-        wide = 256 if width == 1 else line_width(width)
         if antialias is None and wide == 256:
             self._thin_path(Points("line", (x1, y1, x2, y2), False), False, dash_lengths(dash), dda)
         elif dash is None and shape != _ROUND:
@@ -266,18 +269,18 @@ class Lines(Paths):
         if antialias is ...:
             antialias = self._antialias
         self._dip(c, op)
-        shape: cython.int = _SQUARE if cap == "square" else choice("cap", cap, CAPS)
-        dda: cython.bint = False if algorithm == "bresenham" else choice("algorithm", algorithm, _ALGORITHMS)
+        shape: cython.int = _SQUARE if is_word(cap, "square") else choice("cap", cap, CAPS)
+        dda: cython.bint = False if is_word(algorithm, "bresenham") else choice("algorithm", algorithm, _ALGORITHMS)
         as_samples(antialias)
         pattern = dash_lengths(dash)
-        wide = 256 if width == 1 else line_width(width)
+        wide = line_width(width)
         thin: cython.bint = antialias is None and wide == 256
         unit: cython.longlong = 1 if thin else 256
         reach: cython.longlong = NEAR if thin else FIXED_REACH
-        numbers = quick_rows(segments, 4, unit, reach)
+        numbers = quick_rows(segments, 4, False, unit, reach)
         if numbers is None:
-            rows = table("segments", segments, 4)
-            numbers = integers(rows, unit, reach * unit)
+            segments = table("segments", segments, 4)
+            numbers = integers(segments, unit, reach * unit)
         if numbers is None or wide > _WIDE or (not thin and (pattern or shape == _ROUND)):
             style: Any = {"width": width, "cap": cap, "dash": dash, "algorithm": algorithm, "antialias": antialias}
             for x1, y1, x2, y2 in table("segments", segments, 4).tolist():
@@ -319,11 +322,12 @@ class Lines(Paths):
         ...#
         """
         self._dip(c, op)
-        numbers = quick_rows(xy, 2, 1, NEAR) if getattr(xy, "ndim", 0) == 2 else None
+        numbers = quick_rows(xy, 2, False, 1, NEAR)
         if numbers is None:
-            numbers = integers(table("xy", xy, 2), 1, NEAR)
+            rows = table("xy", xy, 2)
+            numbers = integers(rows, 1, NEAR)
         if numbers is None:
-            for x, y in table("xy", xy, 2).tolist():
+            for x, y in rows.tolist():
                 self.pixel(x, y, self.surface.max_level if c is None else c, op=op)
             return
         row: cython.Py_ssize_t

@@ -14,7 +14,14 @@ from paneldraw.raster.far import cut_path, pairs
 from paneldraw.raster.surface import OPS
 
 if cython.compiled:
-    from cython.cimports.paneldraw.framebuffer.arguments import FAR, FIXED_REACH, Points, pointer_to_int64, quick
+    from cython.cimports.paneldraw.framebuffer._words import is_word
+    from cython.cimports.paneldraw.framebuffer.arguments import (
+        FAR,
+        FIXED_REACH,
+        Points,
+        pointer_to_int64,
+        quick,
+    )
     from cython.cimports.paneldraw.raster.cone import ConeFilter
     from cython.cimports.paneldraw.raster.filtered import fill
     from cython.cimports.paneldraw.raster.lines import far
@@ -23,6 +30,7 @@ if cython.compiled:
     from cython.cimports.paneldraw.raster.strokes import Contours, Dashes, stroke
     from cython.cimports.paneldraw.raster.supersample import Supersample
 else:
+    from paneldraw.framebuffer._words import is_word
     from paneldraw.framebuffer.arguments import FAR, FIXED_REACH, Points, pointer_to_int64, quick
     from paneldraw.raster.cone import ConeFilter
     from paneldraw.raster.filtered import fill
@@ -52,7 +60,7 @@ class Paths:
     @cython.inline
     def _dip(self, c: Any, op: Any) -> Any:
         """Fill the ink for level `c` and operation `op`."""
-        code: cython.int = 0 if op == "over" else choice("op", op, OPS)
+        code: cython.int = 0 if is_word(op, "over") else choice("op", op, OPS)
         if c is None:
             self.surface.dip(self.surface.max_level, code)
         else:

@@ -8,14 +8,16 @@ from typing import TYPE_CHECKING, Any
 
 import cython
 
-from paneldraw.framebuffer.arguments import as_samples, choice, dash_lengths, in_turn, line_width, real
+from paneldraw.framebuffer.arguments import as_samples, choice, dash_lengths, in_turn, real
 from paneldraw.raster.far import cut_polygon, is_flat
 from paneldraw.raster.strokes import CAPS, JOINS
 
 if cython.compiled:
-    from cython.cimports.paneldraw.framebuffer.arguments import Points
+    from cython.cimports.paneldraw.framebuffer._words import is_word
+    from cython.cimports.paneldraw.framebuffer.arguments import Points, line_width, quick
 else:
-    from paneldraw.framebuffer.arguments import Points
+    from paneldraw.framebuffer._words import is_word
+    from paneldraw.framebuffer.arguments import Points, line_width, quick
     from paneldraw.framebuffer.lines import Lines
 
 if TYPE_CHECKING:
@@ -164,15 +166,14 @@ class Polygons(Lines):
         ..###..
         ...#...
         """
-        nonzero: cython.bint = False if rule == "even-odd" else choice("rule", rule, _RULES)
+        nonzero: cython.bint = False if is_word(rule, "even-odd") else choice("rule", rule, _RULES)
         self._dip(c, op)
-        if not (x == 0 and y == 0):
+        if quick(x) != 0 or quick(y) != 0:
             coords = _shifted(real("x", x), real("y", y), coords)
         if fill:
-            if join != "miter":
+            if not is_word(join, "miter"):
                 choice("join", join, JOINS)
-            if width != 1:
-                line_width(width)
+            line_width(width)
             corners = Points("coords", coords, True)
             if not _is_flat(corners):
                 self._fill_polygon(corners, nonzero, self._antialias if antialias is ... else antialias)

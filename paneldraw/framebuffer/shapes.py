@@ -8,16 +8,16 @@ from typing import TYPE_CHECKING, Any
 import cython
 
 from paneldraw.framebuffer.angles import sweep
-from paneldraw.framebuffer.arguments import as_samples, length, line_width, real, size, to_256ths, whole
+from paneldraw.framebuffer.arguments import as_samples, length, real, size, to_256ths, whole
 
 if cython.compiled:
-    from cython.cimports.paneldraw.framebuffer.arguments import FAR, quick, quick_256ths
+    from cython.cimports.paneldraw.framebuffer.arguments import FAR, line_width, quick, quick_256ths
     from cython.cimports.paneldraw.framebuffer.rounds import LARGE, LARGE_256THS
     from cython.cimports.paneldraw.raster.curves import rounded
     from cython.cimports.paneldraw.raster.rounds import band
     from cython.cimports.paneldraw.raster.supersample import Supersample
 else:
-    from paneldraw.framebuffer.arguments import FAR, quick, quick_256ths
+    from paneldraw.framebuffer.arguments import FAR, line_width, quick, quick_256ths
     from paneldraw.framebuffer.rounds import LARGE, LARGE_256THS, Rounds
     from paneldraw.raster.curves import rounded
     from paneldraw.raster.rounds import band
@@ -132,17 +132,17 @@ class Shapes(Rounds):
         if antialias is ...:
             antialias = self._antialias
         self._dip(c, op)
-        if antialias is None and width == 1:
+        thickness = line_width(width)
+        if antialias is None and thickness == 256:
             self._thin_rect(whole("x", x), whole("y", y), length("w", w, 1), length("h", h, 1), length("r", r, 1), fill)
             return
         as_samples(antialias)
-        wide = line_width(width)
         left, right, most_x = _side(to_256ths("x", x), length("w", w, 256))
         top, bottom, most_y = _side(to_256ths("y", y), length("h", h, 256))
         corner = min(length("r", r, 256), most_x, most_y)
         if right > left - 256 and bottom > top - 256:
             centers = (left + corner, top + corner, right - corner, bottom - corner)
-            self._band(centers, corner, corner, wide, corner == 0, fill, None, antialias)
+            self._band(centers, corner, corner, thickness, corner == 0, fill, None, antialias)
 
     def circle(
         self,
@@ -196,7 +196,8 @@ class Shapes(Rounds):
         if antialias is ...:
             antialias = self._antialias
         self._dip(c, op)
-        if antialias is None and width == 1:
+        thickness = line_width(width)
+        if antialias is None and thickness == 256:
             a = quick(x)
             b = quick(y)
             k = quick(r)
@@ -208,15 +209,15 @@ class Shapes(Rounds):
         a = quick_256ths(x)
         b = quick_256ths(y)
         k = quick_256ths(r)
-        wide = 256 if width == 1 else quick_256ths(width)
-        near: cython.bint = a != FAR and b != FAR and 0 < k <= LARGE_256THS and 0 < wide <= 2 * LARGE_256THS
+        wide = min(thickness, 2 * LARGE_256THS)
+        near: cython.bint = a != FAR and b != FAR and 0 < k <= LARGE_256THS
         if near and 2 * k + wide < 2 * LARGE_256THS and isinstance(antialias, Supersample):
             samples: Supersample = antialias
             band(self.surface, a, b, a, b, k, k, wide, False, fill, None, samples.n, samples.corner)
         else:
             as_samples(antialias)
             radius = length("r", r, 256)
-            self._around(to_256ths("x", x), to_256ths("y", y), radius, radius, line_width(width), fill, None, antialias)
+            self._around(to_256ths("x", x), to_256ths("y", y), radius, radius, thickness, fill, None, antialias)
 
     def ellipse(
         self,
@@ -276,14 +277,15 @@ class Shapes(Rounds):
             antialias = self._antialias
         quarters: cython.int = _quadrants(quadrants)
         self._dip(c, op)
-        if antialias is None and width == 1:
+        thickness = line_width(width)
+        if antialias is None and thickness == 256:
             width_reach, height_reach = length("xr", xr, 1), length("yr", yr, 1)
             self._thin_ellipse(whole("x", x), whole("y", y), width_reach, height_reach, fill, quarters)
             return
         as_samples(antialias)
         a, b = length("xr", xr, 256), length("yr", yr, 256)
         cut: Any = None if quarters == 15 else quarters
-        self._around(to_256ths("x", x), to_256ths("y", y), a, b, line_width(width), fill, cut, antialias)
+        self._around(to_256ths("x", x), to_256ths("y", y), a, b, thickness, fill, cut, antialias)
 
     def arc(
         self,
@@ -411,12 +413,13 @@ class Shapes(Rounds):
         if antialias is ...:
             antialias = self._antialias
         self._dip(c, op)
-        if antialias is None and width == 1:
+        thickness = line_width(width)
+        if antialias is None and thickness == 256:
             self._thin_turn(whole("x", x), whole("y", y), length("r", r, 1), start, end, swept, sector, fill)
             return
         as_samples(antialias)
         x, y, r = to_256ths("x", x), to_256ths("y", y), length("r", r, 256)
-        self._wide_turn(x, y, r, start, end, swept, sector, fill, line_width(width), antialias)
+        self._wide_turn(x, y, r, start, end, swept, sector, fill, thickness, antialias)
 
 
 def _side(start: Any, size: Any) -> Any:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from array import array
 from functools import lru_cache
+from numbers import Integral, Real
 from typing import Any
 
 import cython
@@ -85,20 +86,21 @@ class ConeFilter:
     """
 
     def __init__(self, radius: Any = 1.0, filter: Any = "cone", resolution: Any = 32) -> None:
-        if not isinstance(radius, (int, float)) or isinstance(radius, bool):
+        if not isinstance(radius, Real) or isinstance(radius, bool):
             raise TypeError(f"radius must be a number of pixels, not {type(radius).__name__}")
-        if not 0.5 <= radius <= 4:
+        pixels: Any = radius
+        if not 0.5 <= pixels <= 4:
             raise ValueError(f"radius must be from 0.5 to 4 pixels, not {radius}")
-        if filter not in tuple(HEIGHTS):
+        if not isinstance(filter, str) or filter not in HEIGHTS:
             raise ValueError(f"filter must be one of {', '.join(map(repr, HEIGHTS))}, not {filter!r}")
-        if not isinstance(resolution, int) or isinstance(resolution, bool):
+        if not isinstance(resolution, Integral) or isinstance(resolution, bool):
             raise TypeError(f"resolution must be a whole number of steps, not {type(resolution).__name__}")
-        if not 8 <= resolution <= 256:
+        if int(resolution) not in range(8, 257):
             raise ValueError(f"resolution must be from 8 to 256 steps a radius, not {resolution}")
         self.radius = float(radius)
         self.filter = filter
-        self.resolution = resolution
-        self.kept = _volumes(filter, resolution)
+        self.resolution = int(resolution)
+        self.kept = _volumes(filter, self.resolution)
         self.fitted = 0
         self.kept_band: Any = None
         # What `paneldraw.raster.filtered` makes of it at first use.

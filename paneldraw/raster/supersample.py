@@ -9,6 +9,7 @@ is painted, once. With n = 1 the only reference point is the pixel's centre (or 
 
 from __future__ import annotations
 
+from numbers import Integral
 from typing import Any
 
 import cython
@@ -58,13 +59,13 @@ class Supersample:
         self.n = 1
 
     def __init__(self, n: object = 4, reference: object = "center") -> None:
-        if isinstance(n, bool) or not isinstance(n, int):
+        if type(n) is not int and (isinstance(n, bool) or not isinstance(n, Integral)):
             raise TypeError(f"n must be a whole number of sub-pixels from 1 to 16, not {type(n).__name__}")
-        if not 1 <= n <= 16:
+        if not 1 <= int(n) <= 16:
             raise ValueError(f"n must be from 1 to 16 sub-pixels, not {n}")
-        if reference not in ("center", "corner"):
+        if not isinstance(reference, str) or reference not in ("center", "corner"):
             raise ValueError(f'reference must be "center" or "corner", not {reference!r}')
-        self.n = n
+        self.n = int(n)
         self.reference = reference
         self.corner = reference == "corner"
 

@@ -189,7 +189,6 @@ class Surface:
         x: cython.Py_ssize_t
         cell: cython.longlong
         covered: cython.longlong
-        share: cython.longlong
         old: cython.longlong
         lower: cython.longlong = 0xFFFFFFFF
         cells: cython.p_longlong = self.cells
@@ -200,32 +199,15 @@ class Surface:
         level: cython.longlong = self.level if op != 4 else 0
         top: cython.int = self.max_level
         pixels: cython.p_uchar = self.pixels
+        ink: cython.p_uchar = self.ink
         base: cython.Py_ssize_t = y * self.stride
-        if (op == 0 or op == 4) and top > 1:
-            for x in range(x1, x2):
-                cell = open_spans + cells[x]
-                cells[x] = 0
-                open_spans = cell & lower
-                covered = n * open_spans - (cell >> 32)
-                old = pixels[base + x]
-                pixels[base + x] = ((2 * (level - old) * covered + (2 * old + 1) * full) * inverse) >> 32
-        else:
-            for x in range(x1, x2):
-                cell = open_spans + cells[x]
-                cells[x] = 0
-                open_spans = cell & lower
-                covered = n * open_spans - (cell >> 32)
-                old = pixels[base + x]
-                share = ((2 * level * covered + full) * inverse) >> 32
-                if top == 1:
-                    if 2 * covered >= full:
-                        pixels[base + x] = self.ink[old]
-                elif op == 1:
-                    pixels[base + x] = old ^ share
-                elif op == 2:
-                    pixels[base + x] = min(old + share, top)
-                else:
-                    pixels[base + x] = max(old, share)
+        for x in range(x1, x2):
+            cell = open_spans + cells[x]
+            cells[x] = 0
+            open_spans = cell & lower
+            covered = n * open_spans - (cell >> 32)
+            old = pixels[base + x]
+            pixels[base + x] = _meet(old, level, covered, full, inverse, op, top, ink)
         return open_spans
 
     @cython.cfunc
@@ -235,29 +217,47 @@ class Surface:
         """Paint up to eight pixels from (x, y) on by their coverage: the bytes of `counts`, the lowest one first."""
         covered: cython.longlong
         old: cython.longlong
-        share: cython.longlong
         full: cython.longlong = self.full
         inverse: cython.longlong = self.full_inverse
         op: cython.int = self.op
         level: cython.longlong = self.level if op != 4 else 0
         top: cython.int = self.max_level
         pixels: cython.p_uchar = self.pixels
+        ink: cython.p_uchar = self.ink
         i: cython.Py_ssize_t = y * self.stride + x
         while counts:
             covered = counts & 255
             counts >>= 8
             old = pixels[i]
-            if top == 1:
-                if 2 * covered >= full:
-                    pixels[i] = self.ink[old]
-            elif op == 0 or op == 4:
-                pixels[i] = ((2 * (level - old) * covered + (2 * old + 1) * full) * inverse) >> 32
-            else:
-                share = ((2 * level * covered + full) * inverse) >> 32
-                if op == 1:
-                    pixels[i] = old ^ share
-                elif op == 2:
-                    pixels[i] = min(old + share, top)
-                else:
-                    pixels[i] = max(old, share)
+            pixels[i] = _meet(old, level, covered, full, inverse, op, top, ink)
             i += 1
+
+
+@cython.cfunc
+@cython.inline
+@cython.nogil
+@cython.exceptval(check=False)
+def _meet(
+    old: cython.longlong,
+    level: cython.longlong,
+    covered: cython.longlong,
+    full: cython.longlong,
+    inverse: cython.longlong,
+    op: cython.int,
+    top: cython.int,
+    ink: cython.p_uchar,
+) -> cython.longlong:
+    """What becomes of a pixel where `level` covers it `covered` times of `full`.
+
+    Rounded to the nearest; x * inverse >> 32 is x / (2 * full). On one bit, half or more is all.
+    """
+    if top == 1:
+        return ink[old] if 2 * covered >= full else old
+    if op == 0 or op == 4:
+        return ((2 * (level - old) * covered + (2 * old + 1) * full) * inverse) >> 32
+    share: cython.longlong = ((2 * level * covered + full) * inverse) >> 32
+    if op == 1:
+        return old ^ share
+    if op == 2:
+        return min(old + share, top)
+    return max(old, share)

@@ -29,6 +29,37 @@ class Setting(NamedTuple):
     rule: str = ""
 
 
+#: What the SSD130x, the SH110x and the SSD1327 have in common: the switches of the display.
+DISPLAY: dict[int, tuple[str, object]] = {0xAE: ("on", False), 0xAF: ("on", True)}
+
+#: What the SSD130x and the SH110x have in common besides: how the RAM comes to the glass, and the timing.
+MIRRORS: dict[int, tuple[str, object]] = {
+    0xA0: ("segment_remap", False),
+    0xA1: ("segment_remap", True),
+    0xA4: ("all_on", False),
+    0xA5: ("all_on", True),
+    0xA6: ("inverted", False),
+    0xA7: ("inverted", True),
+    0xC0: ("com_reversed", False),
+    0xC8: ("com_reversed", True),
+}
+TIMING = {
+    0x81: Setting("contrast"),
+    0xD3: Setting("offset", 0x3F, range(64), "the display offset is 00 to 3F"),
+    0xD5: Setting("clock"),
+    0xD9: Setting(
+        "precharge",
+        legal=[n for n in range(256) if n & 0x0F and n & 0xF0],
+        rule="a precharge phase of 0 clocks is invalid",
+    ),
+}
+
+
+def start_line(registers: Any, sent: Sequence[int], complain: Complain) -> None:
+    """Begin with that row of the RAM: 40 to 7F, of the SSD130x and the SH1106."""
+    registers.start_line = sent[0] & 0x3F
+
+
 def written(sent: Sequence[int]) -> str:
     """Bytes as violations spell them."""
     return " ".join(f"{byte:02X}" for byte in sent)

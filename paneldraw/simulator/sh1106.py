@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .chip import Chip
-from .commands import Command, Complain, Setting, foreign, nothing, table, written
+from .commands import DISPLAY, MIRRORS, TIMING, Command, Complain, Setting, foreign, nothing, start_line, table, written
 from .frames import Picture
 from .glass import Glass, com_signals
 
@@ -64,10 +64,6 @@ def _page(registers: Registers, sent: Sequence[int], complain: Complain) -> None
     registers.page = sent[0] & 0x07
 
 
-def _start_line(registers: Registers, sent: Sequence[int], complain: Complain) -> None:
-    registers.start_line = sent[0] & 0x3F
-
-
 def _pump_voltage(registers: Registers, sent: Sequence[int], complain: Complain) -> None:
     registers.pump_voltage = sent[0]
 
@@ -94,27 +90,14 @@ def _end_modify(registers: Registers, sent: Sequence[int], complain: Complain) -
 COMMANDS = table(
     "SH1106",
     {
-        0x81: Setting("contrast"),
+        **TIMING,
         0xA8: Setting("multiplex", 0x3F, range(64), "the multiplex ratio is 00 to 3F (1 to 64 lines)"),
-        0xD3: Setting("offset", 0x3F, range(64), "the display offset is 00 to 3F"),
-        0xD5: Setting("clock"),
-        0xD9: Setting(
-            "precharge",
-            legal=[n for n in range(256) if n & 0x0F and n & 0xF0],
-            rule="a phase of 0 clocks is invalid",
-        ),
         0xDA: Setting("com_pins", 0x12, (0x02, 0x12), "the COM pins are 02 or 12"),
         0xDB: Setting("vcomh"),
     },
     {
-        0xA0: ("segment_remap", False),
-        0xA1: ("segment_remap", True),
-        0xA4: ("all_on", False),
-        0xA5: ("all_on", True),
-        0xA6: ("inverted", False),
-        0xA7: ("inverted", True),
-        0xAE: ("on", False),
-        0xAF: ("on", True),
+        **DISPLAY,
+        **MIRRORS,
         **dict.fromkeys(range(0xC0, 0xC8), ("com_reversed", False)),
         **dict.fromkeys(range(0xC8, 0xD0), ("com_reversed", True)),
     },
@@ -123,7 +106,7 @@ COMMANDS = table(
         **dict.fromkeys(range(0x10, 0x20), Command(0, _column_high)),
         **dict.fromkeys(range(0x20, 0x23), Command(0, foreign("SH1106", "addressing of the SSD1306"))),
         **dict.fromkeys(range(0x30, 0x34), Command(0, _pump_voltage)),
-        **dict.fromkeys(range(0x40, 0x80), Command(0, _start_line)),
+        **dict.fromkeys(range(0x40, 0x80), Command(0, start_line)),
         0x8D: Command(0, foreign("SH1106", "charge pump of the SSD1306")),
         0xAD: Command(1, _converter),
         **dict.fromkeys(range(0xB0, 0xB8), Command(0, _page)),

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from .commands import Command, Complain, Setting, foreign, nothing, table, written
+from .commands import DISPLAY, MIRRORS, TIMING, Command, Complain, Setting, foreign, nothing, start_line, table, written
 from .glass import com_signals
 
 HORIZONTAL, VERTICAL, PAGE = 0, 1, 2
@@ -83,28 +83,11 @@ class Registers:
 
 
 _SETTINGS = {
+    **TIMING,
     0x20: Setting("mode", 0x03, (HORIZONTAL, VERTICAL, PAGE), "the addressing mode is 00, 01 or 02"),
-    0x81: Setting("contrast", 0xFF, range(256), ""),
     0xA8: Setting("multiplex", 0x3F, range(15, 64), "the multiplex ratio is 0F to 3F (16 to 64 lines)"),
-    0xD3: Setting("offset", 0x3F, range(64), "the display offset is 00 to 3F"),
-    0xD5: Setting("clock", 0xFF, range(256), ""),
-    0xD9: Setting(
-        "precharge", 0xFF, [n for n in range(256) if n & 0x0F and n & 0xF0], "a precharge phase of 0 clocks is invalid"
-    ),
     0xDA: Setting("com_pins", 0x3F, COM_PINS, "the COM pins are 02, 12, 22 or 32"),
     0xDB: Setting("vcomh", 0x70, (0x00, 0x20, 0x30), "the VCOMH level is 00, 20 or 30"),
-}
-
-_FLAGS: dict[int, tuple[str, bool]] = {
-    0xA0: ("segment_remap", False),
-    0xA1: ("segment_remap", True),
-    0xA4: ("all_on", False),
-    0xA5: ("all_on", True),
-    0xA6: ("inverted", False),
-    0xA7: ("inverted", True),
-    0xAE: ("on", False),
-    0xC0: ("com_reversed", False),
-    0xC8: ("com_reversed", True),
 }
 
 # Drivers send these to every relative of the chip; an SSD1306 lets them pass, argument and all.
@@ -149,10 +132,6 @@ def _window(registers: Registers, sent: Sequence[int], complain: Complain) -> No
     setattr(registers, f"{axis}_start", start)
     setattr(registers, f"{axis}_end", end)
     setattr(registers, axis, start)
-
-
-def _start_line(registers: Registers, sent: Sequence[int], complain: Complain) -> None:
-    registers.start_line = sent[0] & 0x3F
 
 
 def _charge_pump(registers: Registers, sent: Sequence[int], complain: Complain) -> None:
@@ -207,11 +186,11 @@ def _scroll_run(registers: Registers, sent: Sequence[int], complain: Complain) -
 COMMANDS = table(
     "SSD1306",
     _SETTINGS,
-    _FLAGS,
+    {**DISPLAY, **MIRRORS},
     {
         **dict.fromkeys(range(0x10), Command(0, _column_low)),
         **dict.fromkeys(range(0x10, 0x20), Command(0, _column_high)),
-        **dict.fromkeys(range(0x40, 0x80), Command(0, _start_line)),
+        **dict.fromkeys(range(0x40, 0x80), Command(0, start_line)),
         **dict.fromkeys(range(0xB0, 0xB8), Command(0, _page_pointer)),
         **{opcode: Command(1, foreign("SSD1306", name)) for opcode, name in _RELATIVES.items()},
         0x21: Command(2, _window),

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .chip import Chip
-from .commands import Command, Complain, Setting, nothing, table, written
+from .commands import DISPLAY, Command, Complain, Setting, nothing, table, written
 from .frames import Picture
 from .glass import Glass, com_signals
 
@@ -152,9 +152,8 @@ COMMANDS = table(
         0xD5: Setting("function_b", 0x63, range(0x60, 0x64), "function selection B is 60 to 63"),
     },
     {
+        **DISPLAY,
         **{opcode: ("display", opcode) for opcode in range(0xA4, 0xA8)},
-        0xAE: ("on", False),
-        0xAF: ("on", True),
     },
     {
         0x15: Command(2, _window),

@@ -5,6 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 from math import inf, nan
 
+import numpy as np
 import pytest
 
 PATH = [(1, 1), (5, 5), (9, 2)]
@@ -24,13 +25,19 @@ calls = {
     "sector": {"x": 5, "y": 5, "r": 3, "start": 0, "end": 90},
 }
 filled = ["triangle", "poly", "rect", "round_rect", "circle", "ellipse", "sector"]
-wrong_everywhere = {"width": [0, -1, nan, inf, -inf, 1e-9], "op": ["plus", None, []], "c": [16, -1, 2**70]}
+# What numpy compares element by element, and has no truth.
+ARRAY, WORDS = np.array([1, 2, 3]), np.array(["over", "butt"])
+wrong_everywhere = {
+    "width": [0, -1, nan, inf, -inf, 1e-9],
+    "op": ["plus", None, [], ARRAY, WORDS],
+    "c": [16, -1, 2**70],
+}
 wrong_somewhere = {
-    "cap": (["line", "lines", "polyline"], ["flat", None]),
+    "cap": (["line", "lines", "polyline"], ["flat", None, ARRAY, WORDS]),
     "dash": (["line", "lines", "polyline"], [(), (0,), (0.5,), (-1, 2), (nan,), (inf, 1)]),
-    "join": (["polyline", "triangle", "poly"], ["sharp", None]),
-    "algorithm": (["line", "lines"], ["wu", None]),
-    "rule": (["poly"], ["odd", None]),
+    "join": (["polyline", "triangle", "poly"], ["sharp", None, ARRAY, WORDS]),
+    "algorithm": (["line", "lines"], ["wu", None, ARRAY, WORDS]),
+    "rule": (["poly"], ["odd", None, ARRAY, WORDS]),
     "quadrants": (["ellipse"], [-1, 16, 2**70]),
     "segments": (["lines"], [[(1, 2, 3)], [1, 2, 3, 4], [(1, 2, 3, 4), (1, 2)], [(1, 1, nan, 2)]]),
     "points": (["polyline"], [[1], [1, 2, 3], [(1, 2, 3)], 5, [(1, 2), 3], [(1, nan)]]),
@@ -95,3 +102,36 @@ def test_dashes_of_enormous_length_and_width(package, antialias, width):
         fb.line(-(2**63), 3, 2**63, 5, dash=dash, antialias=antialias)
         fb.line(0, 0, 9, 9, width=width, dash=(3, 3), antialias=antialias)
     assert fb.pixels.any()
+
+
+@pytest.mark.parametrize("call", calls)
+def test_arrays_are_no_numbers(package, antialias, call):
+    fb = package.Framebuffer(20, 10, 4)
+    numbers = [name for name, value in calls[call].items() if isinstance(value, int)]
+    for name in [*numbers, "width"]:
+        for value in (ARRAY, WORDS, [1, 2]):
+            with pytest.raises(TypeError, match=rf"^{name} must be a number\b"):
+                getattr(fb, call)(**{**calls[call], "antialias": antialias, name: value})
+    assert not fb.pixels.any()
+
+
+def test_samples_and_filters_take_numpys_numbers(package):
+    assert package.Supersample(np.int64(4)) == package.Supersample(4)
+    assert repr(package.ConeFilter(np.float32(1.5), resolution=np.int16(16))) == repr(
+        package.ConeFilter(1.5, resolution=16)
+    )
+    for wrong_number in (True, 4.0, np.float64(4), "4", ARRAY):
+        with pytest.raises(TypeError, match=r"^n must be a whole number"):
+            package.Supersample(wrong_number)
+    with pytest.raises(ValueError, match=r"^reference must be"):
+        package.Supersample(4, WORDS)
+
+
+@pytest.mark.parametrize("call", ["rect", "circle", "ellipse", "arc", "line"])
+def test_a_width_is_one_if_its_nearest_256th_is(package, call):
+    pictures = []
+    for width in (1, 1.0, 1.001, np.float32(1), Fraction(999, 1000)):
+        fb = package.Framebuffer(20, 10, 4)
+        getattr(fb, call)(**calls[call], width=width)
+        pictures.append(fb.pixels.tobytes())
+    assert len(set(pictures)) == 1

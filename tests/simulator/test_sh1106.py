@@ -67,7 +67,7 @@ def test_a_picture_starts_at_column_2() -> None:
         ("AD 14", "AD 14: the DC-DC converter takes 8A"),
         ("AD 8A", "AD 8A: the DC-DC converter is switched while the display is off"),
         ("EE", "EE: the end of a read-modify-write that was not begun"),
-        ("D9 20", "D9 20: a phase of 0 clocks"),
+        ("D9 20", "D9 20: a precharge phase of 0 clocks"),
     ],
 )
 def test_what_the_datasheet_forbids(sent: str, text: str) -> None:
