@@ -21,6 +21,20 @@ def cheapest(controller, cost, cells, page, column):
     uppers = range((controller.ram_width + 15) // 16)
     chained = cost.chained if controller.chained_control else None
     start = (frozenset(cells), page, column % 16, column // 16, "none")
+    return dijkstra(
+        start,
+        lambda state: [
+            *_data(controller, cost, state, visible),
+            *_commands(cost.command, chained, state, pages, uppers),
+        ],
+    )
+
+
+def dijkstra(start, steps):
+    """The least that leads from `start` to a state with nothing to write, which a state says first.
+
+    ``steps(state)`` holds pairs of a price and the state that it leads to.
+    """
     costs = {start: 0}
     number = itertools.count()
     queue = [(0, next(number), start)]
@@ -30,10 +44,7 @@ def cheapest(controller, cost, cells, page, column):
             return paid
         if paid > costs[state]:
             continue
-        for price, following in [
-            *_data(controller, cost, state, visible),
-            *_commands(cost.command, chained, state, pages, uppers),
-        ]:
+        for price, following in steps(state):
             if paid + price < costs.get(following, 1 << 30):
                 costs[following] = paid + price
                 heapq.heappush(queue, (paid + price, next(number), following))

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import heapq
 import itertools
 from typing import NamedTuple
 
 import numpy as np
+from exhaustive import dijkstra
 
 from paneldraw.transports import DATA
 
@@ -100,23 +100,10 @@ def cheapest(controller, cost, cells, state):
     columns = range(left, left + controller.width // wide)
     rows = range(top, top + controller.height // high)
     start = (frozenset(cells), state, "none")
-    costs = {start: 0}
-    number = itertools.count()
-    queue = [(0, next(number), start)]
-    while queue:
-        paid, _, (todo, state, message) = heapq.heappop(queue)
-        if not todo:
-            return paid
-        if paid > costs[todo, state, message]:
-            continue
-        for price, following in [
-            *_data(window, cost, (todo, state, message)),
-            *_commands(controller, cost, (todo, state, message), columns, rows),
-        ]:
-            if paid + price < costs.get(following, 1 << 30):
-                costs[following] = paid + price
-                heapq.heappush(queue, (paid + price, next(number), following))
-    raise AssertionError("everything can be written")
+    return dijkstra(
+        start,
+        lambda node: [*_data(window, cost, node), *_commands(controller, cost, node, columns, rows)],
+    )
 
 
 def _data(window, cost, node):
