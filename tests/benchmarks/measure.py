@@ -7,7 +7,7 @@ import timeit
 from collections.abc import Callable
 from dataclasses import dataclass
 from statistics import median
-from typing import Any
+from typing import Any, ClassVar
 
 Names = dict[str, Any]
 
@@ -17,16 +17,24 @@ SAMPLE = 0.01
 
 @dataclass(frozen=True)
 class Against:
-    """A peer's statement. `at_least` is the ratio of its time to ours that we want."""
+    """A peer's statement. `at_least` is the ratio of its time to ours that we want; `how` names one of several ways."""
 
     peer: str
     statement: str
     at_least: float | None = None
+    how: str = ""
+
+    def __str__(self) -> str:
+        return f"{self.peer} ({self.how})" if self.how else self.peer
 
 
 @dataclass(frozen=True)
 class Row:
-    """One contest: what it is called, how many calls a statement makes, our statement and the peers'."""
+    """One contest: what it is called, how many calls a statement makes, our statement and the peers'.
+
+    Where a statement is a loop, everybody's is: ``for`` over arguments made beforehand, in the form that the call
+    takes, with one call in its body and nothing else.
+    """
 
     name: str
     calls: int
@@ -34,27 +42,63 @@ class Row:
     against: tuple[Against, ...] = ()
 
 
+class Verdicts:
+    """How many of the ratios that we want are met, over all contests of a run, and which are not."""
+
+    def __init__(self) -> None:
+        self.met = 0
+        self.missed: list[str] = []
+
+    def judge(self, row: str, peer: str, ratio: float, wanted: float) -> str:
+        """Keep count of a ratio; the word for it."""
+        if ratio >= wanted:
+            self.met += 1
+            return "met"
+        self.missed.append(f"{row}: {peer} {ratio:.3g}x, wanted {wanted:.3g}")
+        return "NOT met"
+
+
+VERDICTS = Verdicts()
+
+
 class Contest:
     """Runs rows. What a peer's statements need is made on first use by its function in `peers`.
 
-    A peer that cannot be imported is reported, and its places in the rows stay empty.
+    A peer that is not at hand is reported, once, and its places in the rows stay empty. What all need is in `shared`.
     """
 
-    def __init__(self, names: Names, peers: dict[str, Callable[[], Names]], rounds: int) -> None:
-        self.names = names
+    _reported: ClassVar[set[str]] = set()
+
+    def __init__(
+        self, names: Names, peers: dict[str, Callable[[], Names]], rounds: int, shared: Names | None = None
+    ) -> None:
+        self.shared = shared or {}
+        self.names = self.shared | names
+        self.peers = peers
         self.rounds = rounds
-        self.peers: dict[str, Names | None] = {}
-        for peer, names_of in peers.items():
+        self._made: dict[str, Names | None] = {}
+
+    def peer(self, name: str) -> Names | None:
+        """What a peer's statements need, or None if it is not at hand."""
+        if name not in self._made:
             try:
-                self.peers[peer] = names | names_of()
+                self._made[name] = self.shared | self.peers[name]()
             except ImportError as error:
-                self.peers[peer] = None
-                print(f"  without {peer}: {error}; pip install -e '.[bench]' brings it")
+                self._miss(name, f"{error}; pip install -e '.[bench]' brings it")
+            except OSError as error:  # a library or a compiler that pip does not bring
+                self._miss(name, str(error).splitlines()[0])
+        return self._made[name]
+
+    def _miss(self, name: str, reason: str) -> None:
+        self._made[name] = None
+        if name not in self._reported:
+            self._reported.add(name)
+            print(f"  without {name}: {reason}")
 
     def run(self, row: Row) -> None:
         """Time a row and print it: our time a call, and for each peer its time in multiples of ours."""
-        there = [rival for rival in row.against if self.peers[rival.peer] is not None]
-        timers = [Timer(row.ours, self.names), *(Timer(r.statement, self.peers[r.peer] or {}) for r in there)]
+        there = [(rival, names) for rival in row.against if (names := self.peer(rival.peer)) is not None]
+        timers = [Timer(row.ours, self.names), *(Timer(rival.statement, names) for rival, names in there)]
         samples: list[list[float]] = [[] for _ in timers]
         for turn in range(self.rounds):
             for k in range(len(timers)):
@@ -62,10 +106,13 @@ class Contest:
                 samples[k].append(timers[k].sample())
         ours = samples[0]
         cells = []
-        for rival, theirs in zip(there, samples[1:], strict=True):
+        for (rival, _), theirs in zip(there, samples[1:], strict=True):
             ratio = median(their / our for our, their in zip(ours, theirs, strict=True))
-            wanted = f" (wanted {rival.at_least:g})" if rival.at_least else ""
-            cells.append(f"{rival.peer} {ratio:.3g}x{wanted}")
+            cell = f"{rival} {ratio:.3g}x"
+            if rival.at_least:
+                verdict = VERDICTS.judge(row.name, str(rival), ratio, rival.at_least)
+                cell += f" (wanted {rival.at_least:.3g}: {verdict})"
+            cells.append(cell)
         print(f"  {row.name:<44}{1e6 * median(ours) / row.calls:9.3f} us   {'   '.join(cells)}", flush=True)
 
 

@@ -1,0 +1,67 @@
+"""Writing text on 128 x 64; no string comes twice in 10 000, but where the row says so."""
+
+from __future__ import annotations
+
+import random
+from functools import partial
+from itertools import cycle, islice
+
+import canvases
+from canvases import HEIGHT, WIDTH
+from measure import Against, Contest, Names, Row
+
+N = 100
+STRINGS = 10_000
+
+EACH = "for x, y, s in take(): "
+POINTS = "for point, s in take_points(): "
+
+PEERS = (
+    Against("Pillow", POINTS + "text(point, s, 1, font)", 3),
+    Against("Pillow", POINTS + "draw_bitmap(point, getmask(s), 1)", how="its core"),
+    Against("OpenCV", POINTS + "putText(canvas, s, point, FONT, 0.4, 255)"),
+    Against("pygame", POINTS + "blit(render(s, False, white), point)"),
+    Against("framebuf", EACH + "text(s, x, y, 1, font_name=FONT)"),
+)
+
+ROWS = [
+    Row("text, 13 characters", N, EACH + "text(s, x, y)", PEERS),
+    Row(
+        "text, 13 characters, always the same",
+        N,
+        "for x, y in places: text('21.5 \\xb0C 48 %', x, y)",
+        (Against("Pillow", "for point in places: text(point, '21.5 \\xb0C 48 %', 1, font)"),),
+    ),
+    Row(
+        "text, 13 characters on 8 bits, level 100",
+        N,
+        EACH + "grey_text(s, x, y, 100)",
+        (Against("Pillow", POINTS + "text(point, s, 1, font)"),),
+    ),
+]
+
+
+def shapes() -> Names:
+    """Strings and where they go, endless."""
+    pick = random.Random(1)
+    places = [(pick.randrange(WIDTH - 78), pick.randrange(HEIGHT - 11)) for _ in range(STRINGS)]
+    strings = [f"{k:04d}: {pick.randrange(10**6):6d}m" for k in range(STRINGS)]
+    rows = [(x, y, s) for (x, y), s in zip(places, strings, strict=True)]
+    return {
+        "places": places[:N],
+        "take": partial(islice, cycle(rows), N),
+        "take_points": partial(islice, cycle(zip(places, strings, strict=True)), N),
+    }
+
+
+def pillow() -> Names:
+    """What ``ImageDraw.text`` comes down to."""
+    names = canvases.pillow()
+    return names | {"draw_bitmap": names["core"].draw_bitmap, "getmask": names["font"].getmask}
+
+
+def run(rounds: int) -> None:
+    """Print the group's rows."""
+    contest = Contest(canvases.ours(), canvases.PEERS | {"Pillow": pillow}, rounds, shapes())
+    for row in ROWS:
+        contest.run(row)
