@@ -2,16 +2,23 @@
 
 from __future__ import annotations
 
+import importlib
 import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 FOLDER = Path(__file__).parent / "benchmarks"
 #: `link` takes a minute whatever its rounds; what it runs, the tests of the link run too.
 NO_GROUPS = ("run", "measure", "peers", "canvases", "link")
 GROUPS = sorted(file.stem for file in FOLDER.glob("*.py") if file.stem not in NO_GROUPS)
+
+
+DRAWING = ("lines", "shapes", "pixels", "text")
+#: How much peers cover, where we cover 1. OpenCV's thick lines are thicker than it says.
+LEAST, MOST = 0.7, 2
 
 
 def run(*arguments):
@@ -41,3 +48,33 @@ def test_an_unknown_group_is_refused():
     done = run("drawings")
     assert done.returncode == 2
     assert "no group is called 'drawings'; there are drawing, " in done.stderr
+
+
+def some(names, calls, count):
+    """The names that a statement needs, with so many of its calls left."""
+    rows = {name: rows for name, rows in names.items() if isinstance(rows, (list, np.ndarray)) and len(rows)}
+    cut = {name: rows[: count * len(rows) // calls] for name, rows in rows.items() if len(rows) % calls == 0}
+    return names | cut | {"N": count}
+
+
+def drawn(names, statement, calls):
+    """How many pixels' worth a statement's first calls cover."""
+    names["wipe"]()
+    exec(statement, some(names, calls, 2))
+    return sum(shown[:, :128].sum() / (255 if shown.max() > 1 else 1) for shown in names["shown"]())
+
+
+@pytest.mark.parametrize("group", DRAWING)
+def test_what_is_compared_is_the_same_picture(group, monkeypatch):
+    """Each peer at hand lights about as many pixels as we do, so that no statement is fast because it draws nothing."""
+    monkeypatch.syspath_prepend(FOLDER)
+    module = importlib.import_module(group)
+    contest = module.contest(rounds=1)
+    for row in module.ROWS:
+        ours = drawn(contest.names, row.ours, row.calls)
+        assert ours > 0 or row.name in ("pixel, read", "scroll"), row.name
+        for rival in row.against:
+            names = contest.peer(rival.peer)
+            if names is not None:
+                theirs = drawn(names, rival.statement, row.calls)
+                assert LEAST * ours <= theirs <= MOST * ours, f"{row.name}: {rival} {theirs:.1f}, we {ours:.1f}"

@@ -32,6 +32,11 @@ CALLS = (
 )
 
 
+def memory(*arrays: Any) -> Names:
+    """How a test looks at canvases that are arrays, or have their memory in some, and how it wipes them."""
+    return {"shown": lambda: [np.array(one) for one in arrays], "wipe": lambda: [one.fill(0) for one in arrays]}
+
+
 def ours() -> Names:
     """One bit a pixel; and 8 to blend in, anti-aliased one way and the other. `grey` is 8 bits a pixel, aliased."""
     framebuffers = {
@@ -40,14 +45,17 @@ def ours() -> Names:
         "smooth_": Framebuffer(WIDTH, HEIGHT, 8, antialias=Supersample(4)),
         "cone_": Framebuffer(WIDTH, HEIGHT, 8, antialias=ConeFilter()),
     }
-    return {prefix + call: getattr(fb, call) for prefix, fb in framebuffers.items() for call in CALLS} | {
-        "ConeFilter": ConeFilter
+    return {
+        **{prefix + call: getattr(fb, call) for prefix, fb in framebuffers.items() for call in CALLS},
+        "ConeFilter": ConeFilter,
+        **memory(*(fb.pixels for fb in framebuffers.values())),
     }
 
 
 def numpy() -> Names:
     """An array of a byte a pixel, and what a script that draws on it itself writes."""
-    return {"a": np.zeros((HEIGHT, WIDTH), np.uint8), "copyto": np.copyto, "asarray": np.asarray}
+    a = np.zeros((HEIGHT, WIDTH), np.uint8)
+    return {"a": a, "fill": a.fill, "copyto": np.copyto, "greater": np.greater, **memory(a)}
 
 
 def pillow() -> Names:
@@ -66,6 +74,8 @@ def pillow() -> Names:
         "grey_paste": grey.paste,
         "font": ImageFont.load_default_imagefont(),
         "NO_DITHER": Image.Dither.NONE,
+        "shown": lambda: [np.array(one, np.uint8) for one in (image, grey)],
+        "wipe": lambda: [one.paste(0, (0, 0, WIDTH, HEIGHT)) for one in (image, grey)],
     }
 
 
@@ -74,13 +84,15 @@ def opencv() -> Names:
     import cv2
 
     cv2.setNumThreads(1)
-    calls = ("line", "polylines", "rectangle", "circle", "ellipse", "fillPoly", "putText", "copyTo", "threshold")
+    canvas = np.zeros((HEIGHT, WIDTH), np.uint8)
+    shapes = ("line", "polylines", "rectangle", "circle", "ellipse", "fillPoly", "fillConvexPoly")
     return {
-        **{name: getattr(cv2, name) for name in calls},
-        "canvas": np.zeros((HEIGHT, WIDTH), np.uint8),
+        **{name: getattr(cv2, name) for name in (*shapes, "putText", "copyTo", "threshold")},
+        "canvas": canvas,
         "AA": cv2.LINE_AA,
         "FONT": cv2.FONT_HERSHEY_SIMPLEX,
         "BINARY": cv2.THRESH_BINARY,
+        **memory(canvas),
     }
 
 
@@ -91,6 +103,7 @@ def pygame() -> Names:
     """
     import pygame
     import pygame.font
+    import pygame.surfarray
     from pygame import gfxdraw
 
     pygame.font.init()
@@ -112,6 +125,8 @@ def pygame() -> Names:
         "render": pygame.font.Font(None, 13).render,
         "wide_blit": wide.blit,
         "pygame": pygame,
+        "shown": lambda: [pygame.surfarray.array2d(one).T & 255 for one in (surface, wide)],
+        "wipe": lambda: [one.fill(0) for one in (surface, wide)],
     }
 
 
@@ -120,19 +135,25 @@ def cairo() -> Names:
     import cairocffi
     from cairocffi import cairo as library
 
-    contexts = []
-    for antialias in (cairocffi.ANTIALIAS_NONE, cairocffi.ANTIALIAS_FAST):
-        context = cairocffi.Context(cairocffi.ImageSurface(cairocffi.FORMAT_A8, WIDTH, HEIGHT))
+    kinds = {
+        "hard": (cairocffi.ANTIALIAS_NONE, 1),
+        "soft": (cairocffi.ANTIALIAS_FAST, 1),
+        "thick": (cairocffi.ANTIALIAS_FAST, 3),
+    }
+    contexts = {}
+    for kind, (antialias, width) in kinds.items():
+        contexts[kind] = context = cairocffi.Context(cairocffi.ImageSurface(cairocffi.FORMAT_A8, WIDTH, HEIGHT))
         context.set_source_rgba(1, 1, 1, 1)
-        context.set_line_width(1)
+        context.set_line_width(width)
         context.set_antialias(antialias)
-        contexts.append(context)
-    calls = ("move_to", "line_to", "arc", "rectangle", "append_path", "stroke", "fill", "set_line_width")
+        context.set_fill_rule(cairocffi.FILL_RULE_EVEN_ODD)
+    calls = ("move_to", "line_to", "arc", "new_path", "append_path", "copy_path", "stroke", "fill")
+    views = [np.frombuffer(one.get_target().get_data(), np.uint8).reshape(HEIGHT, -1) for one in contexts.values()]
     return {
         **{name: getattr(library, f"cairo_{name}") for name in calls},
+        **{kind: context._pointer for kind, context in contexts.items()},
         "contexts": contexts,
-        "hard": contexts[0]._pointer,
-        "soft": contexts[1]._pointer,
+        **memory(*views),
     }
 
 
@@ -141,7 +162,8 @@ def skia() -> Names:
     import skia
 
     info = skia.ImageInfo.Make(WIDTH, HEIGHT, skia.kGray_8_ColorType, skia.kOpaque_AlphaType)
-    surface = skia.Surface.MakeRaster(info)
+    pixels = np.zeros((HEIGHT, WIDTH), np.uint8)
+    surface = skia.Surface.MakeRasterDirect(info, pixels, WIDTH)
     canvas = surface.getCanvas()
     calls = ("drawLine", "drawPoints", "drawRect", "drawRoundRect", "drawCircle", "drawArc", "drawPath")
 
@@ -159,6 +181,7 @@ def skia() -> Names:
         "smooth": paint(True),
         "thin": paint(True, 1),
         "wide": paint(True, 3),
+        **memory(pixels),
     }
 
 
@@ -169,7 +192,6 @@ def agg() -> Names:
     hard, soft = (aggdraw.Draw("L", (WIDTH, HEIGHT)) for _ in range(2))
     hard.setantialias(False)
     return {
-        "draws": (hard, soft),
         "hard_line": hard.line,
         "line": soft.line,
         "ellipse": soft.ellipse,
@@ -179,14 +201,20 @@ def agg() -> Names:
         "thin": aggdraw.Pen(255, 1),
         "wide": aggdraw.Pen(255, 3),
         "brush": aggdraw.Brush(255),
+        "shown": lambda: [np.frombuffer(one.tobytes(), np.uint8).reshape(HEIGHT, WIDTH) for one in (hard, soft)],
+        "wipe": lambda: [one.clear(0) for one in (hard, soft)],
     }
 
 
 def blend2d() -> Names:
     """8 bits of coverage a pixel; it knows no aliased drawing. The C functions, called through ctypes."""
-    from blend2d import Context, FillRule, Format, GeometryType, Image, ffi
+    try:
+        from blend2d import Context, FillRule, Format, GeometryType, Image, ffi
+    except RuntimeError as error:  # the package is there, and its library is for another machine
+        raise OSError(*error.args) from error
 
     names: Names = {kind.name: int(kind) for kind in GeometryType}
+    views = []
     for prefix, width in (("thin", 1.0), ("wide", 3.0)):
         image = Image(WIDTH, HEIGHT, Format.A8)
         context = Context(image)
@@ -195,11 +223,13 @@ def blend2d() -> Names:
         context.stroke_width = width
         context.fill_rule = FillRule.EVEN_ODD
         names[f"{prefix}_objects"] = image, context
+        views.append(np.frombuffer(image.buffer, np.uint8).reshape(HEIGHT, -1))
         names[prefix] = ctypes.byref(context._core)
     return names | {
         "ffi": ffi,
         "fill": ffi.bl.bl_context_fill_geometry,
         "stroke": ffi.bl.bl_context_stroke_geometry,
+        **memory(*views),
     }
 
 
@@ -253,7 +283,8 @@ def numba() -> Names:
         for k in range(table.shape[0]):
             line(a, table[k, 0], table[k, 1], table[k, 2], table[k, 3], level)
 
-    return {"a": np.zeros((HEIGHT, WIDTH), np.uint8), "line": line, "lines": lines}
+    a = np.zeros((HEIGHT, WIDTH), np.uint8)
+    return {"a": a, "line": line, "lines": lines, **memory(a)}
 
 
 def floor() -> Names:
@@ -272,7 +303,7 @@ def floor() -> Names:
     canvas = np.zeros((HEIGHT, WIDTH), np.uint8)
     lines.argtypes = (ctypes.c_void_p, ctypes.c_int, ctypes.c_void_p, ctypes.c_int, ctypes.c_int)
     lines.restype = None
-    return {"lines": lines, "canvas": canvas, "pixels": canvas.ctypes.data}
+    return {"lines": lines, "pixels": canvas.ctypes.data, **memory(canvas)}
 
 
 def framebuf() -> Names:
@@ -281,7 +312,8 @@ def framebuf() -> Names:
 
     from paneldraw.text import Font
 
-    buffer = adafruit_framebuf.FrameBuffer(bytearray(WIDTH * HEIGHT // 8), WIDTH, HEIGHT, adafruit_framebuf.MVLSB)
+    pages = np.zeros((HEIGHT // 8, WIDTH), np.uint8)
+    buffer = adafruit_framebuf.FrameBuffer(memoryview(pages).cast("B"), WIDTH, HEIGHT, adafruit_framebuf.MVLSB)
     font = Font.builtin()
     columns = bytearray((font.width, font.height))
     for code in range(256):
@@ -292,7 +324,12 @@ def framebuf() -> Names:
     path = Path(folder.name) / "font5x8.bin"
     path.write_bytes(columns)
     calls = ("pixel", "hline", "vline", "line", "rect", "fill_rect", "circle", "fill", "scroll", "text", "image")
-    return {**{name: getattr(buffer, name) for name in calls}, "FONT": str(path)}
+    return {
+        **{name: getattr(buffer, name) for name in calls},
+        "FONT": str(path),
+        "shown": lambda: [np.unpackbits(pages[:, np.newaxis], axis=1, bitorder="little").reshape(HEIGHT, WIDTH)],
+        "wipe": lambda: pages.fill(0),
+    }
 
 
 PEERS: dict[str, Callable[[], Names]] = {

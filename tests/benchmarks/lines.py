@@ -23,7 +23,7 @@ def thin(skia: float, agg: float | None = None) -> tuple[Against, ...]:
     """Anti-aliased lines of width 1, and the ratios that we want to two of the peers."""
     return (
         Against("Skia", SHIFTED + "drawLine(x1, y1, x2, y2, thin)", skia),
-        Against("AGG", TUPLES + "line(segment, thin)", agg),
+        Against("AGG", "for segment in shifted: line(segment, thin)", agg),
         Against("cairo", CAIRO.format("soft")),
         Against("Blend2D", BLEND2D.format("thin")),
         Against("pygame", ENDS + "aaline(wide, white, p, q)"),
@@ -32,7 +32,7 @@ def thin(skia: float, agg: float | None = None) -> tuple[Against, ...]:
 
 WIDE = (
     Against("Skia", SHIFTED + "drawLine(x1, y1, x2, y2, wide)"),
-    Against("AGG", TUPLES + "line(segment, wide)"),
+    Against("AGG", "for segment in shifted: line(segment, wide)"),
     Against("Blend2D", BLEND2D.format("wide")),
 )
 
@@ -48,7 +48,7 @@ ROWS = [
             Against("pygame", EACH + "gfx_line(wide, x1, y1, x2, y2, white)", how="gfxdraw"),
             Against("cairo", CAIRO.format("hard")),
             Against("Skia", SHIFTED + "drawLine(x1, y1, x2, y2, hairline)"),
-            Against("AGG", TUPLES + "hard_line(segment, thin)"),
+            Against("AGG", "for segment in shifted: hard_line(segment, thin)"),
             Against("numba", EACH + "line(a, x1, y1, x2, y2, 1)"),
             Against("framebuf", EACH + "line(x1, y1, x2, y2, 1)"),
         ),
@@ -162,8 +162,8 @@ def kept() -> Names:
     return names | {"one": names["ConeFilter"]()}
 
 
-def run(rounds: int) -> None:
-    """Print the group's rows."""
+def contest(rounds: int) -> Contest:
+    """Us and the peers."""
     peers = canvases.PEERS | {
         "OpenCV": opencv,
         "Skia": skia,
@@ -171,6 +171,9 @@ def run(rounds: int) -> None:
         "C": floor,
         "ours": kept,
     }
-    contest = Contest(canvases.ours(), peers, rounds, shapes())
-    for row in ROWS:
-        contest.run(row)
+    return Contest(canvases.ours(), peers, rounds, shapes())
+
+
+def run(rounds: int) -> None:
+    """Print the group's rows."""
+    contest(rounds).run_all(ROWS)

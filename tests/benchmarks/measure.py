@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 import timeit
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from statistics import median
 from typing import Any, ClassVar
@@ -94,6 +94,11 @@ class Contest:
         if name not in self._reported:
             self._reported.add(name)
             print(f"  without {name}: {reason}")
+
+    def run_all(self, rows: Iterable[Row]) -> None:
+        """Time rows and print them."""
+        for row in rows:
+            self.run(row)
 
     def run(self, row: Row) -> None:
         """Time a row and print it: our time a call, and for each peer its time in multiples of ours."""

@@ -82,7 +82,7 @@ ROWS = [
     ),
     Row(
         "scroll",
-        N,
+        FEW,
         "for dx, dy in steps: scroll(dx, dy)",
         (
             Against("numpy", "for there, here in moves: a[there] = a[here]", 1),
@@ -196,7 +196,7 @@ def shapes() -> Names:
         "levels": list(islice(cycle((0, 1)), N)),
         "area": (0, 0, WIDTH, HEIGHT),
         "origin": (0, 0),
-        "steps": [(pick.randint(-5, 5), pick.randint(-5, 5)) for _ in range(N)],
+        "steps": [(pick.randint(-5, 5), pick.randint(-5, 5)) for _ in range(FEW)],
         "gray_arrays": list(grays),
         "bool_arrays": list(grays > 127),
         "gray_images": gray_images,
@@ -243,10 +243,7 @@ def numpy() -> Names:
 
     moves = [((part(dy, HEIGHT), part(dx, WIDTH)), (part(-dy, HEIGHT), part(-dx, WIDTH))) for dx, dy in made["steps"]]
     pictures = [picture.astype(np.uint8) for picture in made["bool_arrays"]]
-    names = canvases.numpy()
-    return names | {
-        "fill": names["a"].fill,
-        "greater": np.greater,
+    return canvases.numpy() | {
         "stamp": stamp(),
         "mask": stamp() > 0,
         "moves": moves,
@@ -285,9 +282,12 @@ def pygame() -> Names:
     return names | {"stamp": small, "keyed": keyed, "pictures": [copy(one) for one in shapes()["bool_arrays"]]}
 
 
+def contest(rounds: int) -> Contest:
+    """Us and the peers."""
+    peers = canvases.PEERS | {"numpy": numpy, "Pillow": pillow, "OpenCV": opencv, "pygame": pygame}
+    return Contest(ours(), peers, rounds, shapes())
+
+
 def run(rounds: int) -> None:
     """Print the group's rows."""
-    peers = canvases.PEERS | {"numpy": numpy, "Pillow": pillow, "OpenCV": opencv, "pygame": pygame}
-    contest = Contest(ours(), peers, rounds, shapes())
-    for row in ROWS:
-        contest.run(row)
+    contest(rounds).run_all(ROWS)

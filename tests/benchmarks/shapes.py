@@ -10,7 +10,7 @@ import numpy as np
 from canvases import HEIGHT, WIDTH
 from measure import Against, Contest, Names, Row
 
-N = 500
+N = 200
 SMALL, LARGE = 12, 20
 CORNER = 4
 
@@ -36,7 +36,7 @@ def aliased() -> list[Row]:
                 Against("pygame", "for one in surface_rects: rect(surface, 255, one, 1)", 1),
                 Against("Pillow", BOXES + "rectangle(box, None, 1)", 2),
                 Against("OpenCV", CORNERS + "rectangle(canvas, p, q, 255)"),
-                Against("Skia", "for one in skia_rects: drawRect(one, outline)"),
+                Against("Skia", "for one in outlines: drawRect(one, outline)"),
                 Against("framebuf", RECTS + "rect(x, y, w, h, 1)"),
             ),
         ),
@@ -60,7 +60,7 @@ def aliased() -> list[Row]:
             (
                 Against("pygame", "for one in surface_rects: rect(surface, 255, one, 1, CORNER)", 1),
                 Against("Pillow", BOXES + "rounded_rectangle(box, CORNER, None, 1)", 1),
-                Against("Skia", "for one in skia_rects: drawRoundRect(one, CORNER, CORNER, outline)", 1),
+                Against("Skia", "for one in outlines: drawRoundRect(one, CORNER, CORNER, outline)", 1),
             ),
         ),
         Row(
@@ -159,7 +159,7 @@ def smooth(kind: str, call: str, opencv: float | None = None, blend2d: float | N
                 Against("Blend2D", "for one in circles: stroke(thin, CIRCLE, one)"),
                 Against("Skia", MIDDLES + "drawCircle(x, y, LARGE, thin)"),
                 Against("cairo", MIDDLES + "arc(soft, x, y, LARGE, 0, ALL_ROUND); stroke(soft)"),
-                Against("AGG", "for box in large_boxes: ellipse(box, thin)"),
+                Against("AGG", "for box in ring_boxes: ellipse(box, thin)"),
                 Against("pygame", POINTS + "aacircle(wide, white, center, LARGE, 1)"),
             ),
         ),
@@ -172,8 +172,8 @@ def smooth(kind: str, call: str, opencv: float | None = None, blend2d: float | N
                 Against("Blend2D", "for one in circles: stroke(wide, CIRCLE, one)", blend2d),
                 Against("Skia", MIDDLES + "drawCircle(x, y, LARGE, wide)"),
                 Against("cairo", MIDDLES + "arc(thick, x, y, LARGE, 0, ALL_ROUND); stroke(thick)"),
-                Against("AGG", "for box in large_boxes: ellipse(box, wide)"),
-                Against("pygame", POINTS + "aacircle(wide, white, center, LARGE, 3)"),
+                Against("AGG", "for box in ring_boxes: ellipse(box, wide)"),
+                Against("pygame", POINTS + "aacircle(wide, white, center, LARGE + 1, 3)"),
             ),
         ),
         Row(
@@ -185,7 +185,7 @@ def smooth(kind: str, call: str, opencv: float | None = None, blend2d: float | N
                 Against("Blend2D", "for one in discs: fill(thin, CIRCLE, one)", blend2d),
                 Against("Skia", MIDDLES + "drawCircle(x, y, RADIUS, smooth)"),
                 Against("cairo", MIDDLES + "arc(soft, x, y, RADIUS, 0, ALL_ROUND); fill(soft)"),
-                Against("AGG", "for box in large_boxes: ellipse(box, brush)"),
+                Against("AGG", "for box in disc_boxes: ellipse(box, brush)"),
                 Against("pygame", POINTS + "aacircle(wide, white, center, LARGE)"),
             ),
         ),
@@ -209,8 +209,8 @@ def smooth(kind: str, call: str, opencv: float | None = None, blend2d: float | N
                 Against("OpenCV", "for points in int32_paths: polylines(canvas, points, False, 255, 3, AA)"),
                 Against("Blend2D", "for one in path_views: stroke(wide, POLYLINED, one)"),
                 Against("Skia", "for one in skia_paths: drawPath(one, wide)"),
-                Against("cairo", "for one in path_data: append_path(thick, one); stroke(thick)"),
-                Against("AGG", "for points in flat_paths: line(points, wide)"),
+                Against("cairo", "for one in data_paths: append_path(thick, one); stroke(thick)"),
+                Against("AGG", "for points in agg_paths: line(points, wide)"),
             ),
         ),
         Row(
@@ -230,9 +230,9 @@ def smooth(kind: str, call: str, opencv: float | None = None, blend2d: float | N
             TURNS + f"{call}sector(64, 32, LARGE, start, end, 255, True)",
             (
                 Against("OpenCV", TURNS + "ellipse(canvas, center, large_radii, 0, start, end, 255, -1, AA)"),
-                Against("Blend2D", "for one in arcs: fill(thin, PIE, one)"),
-                Against("Skia", TURNS + "drawArc(oval, start, end - start, True, smooth)"),
-                Against("AGG", TURNS + "pieslice(large_box, start, end, brush)"),
+                Against("Blend2D", "for one in pies: fill(thin, PIE, one)"),
+                Against("Skia", TURNS + "drawArc(wide_oval, start, end - start, True, smooth)"),
+                Against("AGG", "for start, end in counterclockwise: pieslice(pie_box, start, end, brush)"),
             ),
         ),
     ]
@@ -245,13 +245,14 @@ def filled(which: str, opencv: float | None, blend2d: float | None) -> tuple[Aga
         Against("Blend2D", f"for one in views_{which}: fill(thin, POLYGOND, one)", blend2d),
         Against("Skia", f"for one in skia_{which}: drawPath(one, smooth)"),
         Against("cairo", f"for one in data_{which}: append_path(soft, one); fill(soft)"),
-        Against("AGG", f"for points in flat_{which}: polygon(points, brush)"),
+        Against("AGG", f"for points in agg_{which}: polygon(points, brush)"),
     )
 
 
 ROWS = [*aliased(), *smooth("Supersample(4)", "smooth_", 1.5, 2), *smooth("ConeFilter()", "cone_")]
 
 Points = list[tuple[int, int]]
+Halves = list[tuple[float, float]]
 
 
 def shapes() -> Names:
@@ -277,9 +278,8 @@ def shapes() -> Names:
         "slices": [(x1, y1, x2 + 1, y2 + 1) for x1, y1, x2, y2 in boxes],
         "centers": centers,
         "middles": [(x + 0.5, y + 0.5) for x, y in centers],
-        "small_boxes": around(centers, SMALL),
-        "large_boxes": around(centers, LARGE),
-        **{f"flat_{name}": flat(made) for name, made in lists.items()},
+        "small_boxes": [(x - SMALL, y - SMALL, x + SMALL, y + SMALL) for x, y in centers],
+        "flat_polygons": flat(lists["polygons"]),
         "turns": [(start, start + sweep) for start, sweep in turns],
         "triangles": flat(lists["triangles"]),
         **{name: [np.array(one) for one in lists[name]] for name in ("polygons", "regular", "paths")},
@@ -298,17 +298,12 @@ def ngon(x: int, y: int) -> Points:
     ]
 
 
-def around(centers: Points, r: int) -> list[tuple[int, int, int, int]]:
-    """The boxes around circles."""
-    return [(x - r, y - r, x + r, y + r) for x, y in centers]
-
-
-def flat(lists: list[Points]) -> list[tuple[int, ...]]:
+def flat(lists: list[Points] | list[Halves]) -> list[tuple[float, ...]]:
     """Points as x and y in turn."""
     return [tuple(number for point in points for number in point) for points in lists]
 
 
-def halves(lists: list[Points]) -> list[list[tuple[float, float]]]:
+def halves(lists: list[Points]) -> list[Halves]:
     """Points of which a pixel's center is at its half."""
     return [[(x + 0.5, y + 0.5) for x, y in points] for points in lists]
 
@@ -320,11 +315,8 @@ def pillow() -> Names:
 
 def opencv() -> Names:
     """Points as arrays of 32-bit numbers, each in a list of one contour."""
-    import cv2
-
     made = shapes()
     return canvases.opencv() | {
-        "fillConvexPoly": cv2.fillConvexPoly,
         "corners": [((x1, y1), (x2, y2)) for x1, y1, x2, y2 in made["boxes"]],
         **{f"int32_{name}": [[np.array(one, np.int32)] for one in lists] for name, lists in made["lists"].items()},
         "center": (64, 32),
@@ -344,34 +336,22 @@ def pygame() -> Names:
 
 
 def cairo() -> Names:
-    """Its paths, and a context for lines of width 3."""
-    import cairocffi
+    """Its paths."""
+    names, lists = canvases.cairo(), shapes()["lists"]
 
-    names, made = canvases.cairo(), shapes()
-    thick = cairocffi.Context(cairocffi.ImageSurface(cairocffi.FORMAT_A8, WIDTH, HEIGHT))
-    thick.set_source_rgba(1, 1, 1, 1)
-    thick.set_antialias(cairocffi.ANTIALIAS_FAST)
-    thick.set_line_width(3)
-    soft = names["contexts"][1]
-    soft.set_fill_rule(cairocffi.FILL_RULE_EVEN_ODD)
-    library, pointer = cairocffi.cairo, thick._pointer
-    data = {}
-    for name, lists in made["lists"].items():
-        data[name] = []
-        for x, y, *rest in (sum(points, ()) for points in halves(lists)):
-            library.cairo_new_path(pointer)
-            library.cairo_move_to(pointer, x, y)
-            for k in range(0, len(rest), 2):
-                library.cairo_line_to(pointer, rest[k], rest[k + 1])
-            data[name].append(library.cairo_copy_path(pointer))
-    library.cairo_new_path(pointer)
+    def path(points: Halves) -> object:
+        (x, y), *rest = points
+        names["new_path"](names["soft"])
+        names["move_to"](names["soft"], x, y)
+        for x, y in rest:
+            names["line_to"](names["soft"], x, y)
+        made: object = names["copy_path"](names["soft"])
+        names["new_path"](names["soft"])
+        return made
+
     return names | {
-        "thick": pointer,
-        "thick_context": thick,
-        "path_data": data["paths"],
-        "data_polygons": data["polygons"],
-        "data_regular": data["regular"],
-        "radians": [(math.radians(start), math.radians(end)) for start, end in made["turns"]],
+        **{f"data_{name}": [path(one) for one in halves(lists[name])] for name in ("polygons", "regular", "paths")},
+        "radians": [(math.radians(start), math.radians(end)) for start, end in shapes()["turns"]],
     }
 
 
@@ -384,19 +364,33 @@ def skia() -> Names:
         lists = [[library.Point(*point) for point in points] for points in halves(made["lists"][name])]
         return [library.Path.Polygon(points, closed, library.PathFillType.kEvenOdd) for points in lists]
 
+    def oval(r: float) -> object:
+        made: object = library.Rect.MakeXYWH(64.5 - r, 32.5 - r, 2 * r, 2 * r)
+        return made
+
     return names | {
         "skia_rects": [library.Rect.MakeXYWH(x, y, w, h) for x, y, w, h in made["rects"]],
+        "outlines": [library.Rect.MakeXYWH(x + 0.5, y + 0.5, w - 1, h - 1) for x, y, w, h in made["rects"]],
         "outline": library.Paint(Color=library.ColorWHITE, Style=library.Paint.kStroke_Style, StrokeWidth=1),
         "skia_polygons": paths("polygons", True),
         "skia_regular": paths("regular", True),
         "skia_paths": paths("paths", False),
-        "oval": library.Rect.MakeXYWH(64.5 - LARGE, 32.5 - LARGE, 2 * LARGE, 2 * LARGE),
+        "oval": oval(LARGE),
+        "wide_oval": oval(LARGE + 0.5),
     }
 
 
 def agg() -> Names:
-    """The box around the arcs."""
-    return canvases.agg() | {"large_box": (64 - LARGE, 32 - LARGE, 64 + LARGE, 32 + LARGE)}
+    """Points of which a pixel's center is at its half, and boxes around the true circles."""
+    made = shapes()
+    around_centers = [((x - r, y - r, x + r, y + r), r) for x, y in made["middles"] for r in (LARGE, LARGE + 0.5)]
+    return canvases.agg() | {
+        "ring_boxes": [box for box, r in around_centers if r == LARGE],
+        "disc_boxes": [box for box, r in around_centers if r != LARGE],
+        "counterclockwise": [(-end, -start) for start, end in made["turns"]],
+        "pie_box": (64 - LARGE, 32 - LARGE, 65 + LARGE, 33 + LARGE),
+        **{f"agg_{name}": flat(halves(made["lists"][name])) for name in ("polygons", "regular", "paths")},
+    }
 
 
 def blend2d() -> Names:
@@ -409,14 +403,15 @@ def blend2d() -> Names:
         "circles": make(ffi.BLCircle, [(x, y, LARGE) for x, y in made["middles"]]),
         "discs": make(ffi.BLCircle, [(x, y, LARGE + 0.5) for x, y in made["middles"]]),
         "arcs": make(ffi.BLArc, [(64.5, 32.5, LARGE, LARGE, *sweep) for sweep in sweeps]),
+        "pies": make(ffi.BLArc, [(64.5, 32.5, LARGE + 0.5, LARGE + 0.5, *sweep) for sweep in sweeps]),
         "views_polygons": view(ffi, halves(lists["polygons"])),
         "views_regular": view(ffi, halves(lists["regular"])),
         "path_views": view(ffi, halves(lists["paths"])),
     }
 
 
-def run(rounds: int) -> None:
-    """Print the group's rows."""
+def contest(rounds: int) -> Contest:
+    """Us and the peers."""
     peers = canvases.PEERS | {
         "Pillow": pillow,
         "OpenCV": opencv,
@@ -426,6 +421,9 @@ def run(rounds: int) -> None:
         "AGG": agg,
         "Blend2D": blend2d,
     }
-    contest = Contest(canvases.ours(), peers, rounds, shapes())
-    for row in ROWS:
-        contest.run(row)
+    return Contest(canvases.ours(), peers, rounds, shapes())
+
+
+def run(rounds: int) -> None:
+    """Print the group's rows."""
+    contest(rounds).run_all(ROWS)

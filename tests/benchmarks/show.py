@@ -120,6 +120,4 @@ def displayio() -> Names:
 
 def run(rounds: int) -> None:
     """Print the group's rows."""
-    contest = Contest(names(), {LUMA: luma, ADAFRUIT: adafruit, DISPLAYIO: displayio}, rounds)
-    for contest_row in ROWS:
-        contest.run(contest_row)
+    Contest(names(), {LUMA: luma, ADAFRUIT: adafruit, DISPLAYIO: displayio}, rounds).run_all(ROWS)

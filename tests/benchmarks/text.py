@@ -20,7 +20,7 @@ PEERS = (
     Against("Pillow", POINTS + "text(point, s, 1, font)", 3),
     Against("Pillow", POINTS + "draw_bitmap(point, getmask(s), 1)", how="its core"),
     Against("OpenCV", POINTS + "putText(canvas, s, point, FONT, 0.4, 255)"),
-    Against("pygame", POINTS + "blit(render(s, False, white), point)"),
+    Against("pygame", POINTS + "wide_blit(render(s, False, white), point)"),
     Against("framebuf", EACH + "text(s, x, y, 1, font_name=FONT)"),
 )
 
@@ -33,9 +33,9 @@ ROWS = [
         (Against("Pillow", "for point in places: text(point, '21.5 \\xb0C 48 %', 1, font)"),),
     ),
     Row(
-        "text, 13 characters on 8 bits, level 100",
+        "text, 13 characters on 8 bits",
         N,
-        EACH + "grey_text(s, x, y, 100)",
+        EACH + "grey_text(s, x, y)",
         (Against("Pillow", POINTS + "text(point, s, 1, font)"),),
     ),
 ]
@@ -60,8 +60,11 @@ def pillow() -> Names:
     return names | {"draw_bitmap": names["core"].draw_bitmap, "getmask": names["font"].getmask}
 
 
+def contest(rounds: int) -> Contest:
+    """Us and the peers."""
+    return Contest(canvases.ours(), canvases.PEERS | {"Pillow": pillow}, rounds, shapes())
+
+
 def run(rounds: int) -> None:
     """Print the group's rows."""
-    contest = Contest(canvases.ours(), canvases.PEERS | {"Pillow": pillow}, rounds, shapes())
-    for row in ROWS:
-        contest.run(row)
+    contest(rounds).run_all(ROWS)
