@@ -97,9 +97,9 @@ def opencv() -> Names:
 
 
 def pygame() -> Names:
-    """A surface of 8 bits a pixel for the calls of ``pygame.draw``, and one of 32 for those of ``pygame.gfxdraw``.
+    """A surface of 8 bits a pixel, and a `wide` one of 32: each call is on the one where it is faster.
 
-    Each call is measured on the one, and of the module, where it is faster; there is no anti-aliasing but on 32 bits.
+    Shapes are in two of its modules, of which none is always the faster, so that both are measured.
     """
     import pygame
     import pygame.font
@@ -108,10 +108,12 @@ def pygame() -> Names:
 
     pygame.font.init()
     surface, wide = (pygame.Surface((WIDTH, HEIGHT), 0, bits) for bits in (8, 32))
+    surface.set_palette([(grey, grey, grey) for grey in range(256)])
     shapes = ("line", "rect", "circle", "polygon", "arc", "aaline", "aacircle")
+    gfx_shapes = ("line", "rectangle", "box", "circle", "hline", "vline", "trigon")
     return {
         **{name: getattr(pygame.draw, name) for name in shapes},
-        **{f"gfx_{name}": getattr(gfxdraw, name) for name in ("line", "circle", "hline", "vline", "trigon")},
+        **{f"gfx_{name}": getattr(gfxdraw, name) for name in gfx_shapes},
         "surface": surface,
         "wide": wide,
         "white": pygame.Color("white"),
@@ -132,8 +134,11 @@ def pygame() -> Names:
 
 def cairo() -> Names:
     """8 bits of coverage a pixel; aliased, and anti-aliased the fast way. The C functions, called through cffi."""
-    import cairocffi
-    from cairocffi import cairo as library
+    try:
+        import cairocffi
+        from cairocffi import cairo as library
+    except OSError as error:
+        raise OSError(f"{str(error).splitlines()[0]}; Debian's libcairo2 brings it") from error
 
     kinds = {
         "hard": (cairocffi.ANTIALIAS_NONE, 1),

@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator
 from statistics import median
 from typing import Any
 
+import measure
 from measure import Timer
 
 from paneldraw import ConeFilter, Framebuffer, Supersample
@@ -47,10 +48,12 @@ def places() -> Iterator[tuple[str, tuple[int, int], tuple[int, int], tuple[int,
 
 
 def picks(low: tuple[int, int], high: tuple[int, int], points: int) -> list[list[tuple[int, int]]]:
-    """The points of N shapes."""
+    """The points of N shapes, or of a few where it only matters that they are drawn."""
     pick = random.Random(7)
+    count = N if measure.SAMPLE else 3
     return [
-        [(pick.randrange(low[0], high[0]), pick.randrange(low[1], high[1])) for _ in range(points)] for _ in range(N)
+        [(pick.randrange(low[0], high[0]), pick.randrange(low[1], high[1])) for _ in range(points)]
+        for _ in range(count)
     ]
 
 
@@ -77,7 +80,7 @@ def run(rounds: int) -> None:
         samples: list[list[float]] = [[] for _ in contests]
         for _ in range(min(rounds, 5)):
             for k, (_, _, timer) in enumerate(contests):
-                samples[k].append(timer.sample() / N)
+                samples[k].append(timer.sample() / len(shapes))
         for (place, pixels, _), seconds in zip(contests, samples, strict=True):
             cost = median(seconds)
             each = f"{1e9 * cost / pixels:8.2f} ns a pixel" if pixels else ""

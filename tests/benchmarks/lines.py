@@ -44,7 +44,7 @@ ROWS = [
         (
             Against("Pillow", TUPLES + "line(segment, 1)", 4),
             Against("OpenCV", ENDS + "line(canvas, p, q, 255)", 4),
-            Against("pygame", ENDS + "line(surface, 255, p, q)"),
+            Against("pygame", ENDS + "line(wide, white, p, q)"),
             Against("pygame", EACH + "gfx_line(wide, x1, y1, x2, y2, white)", how="gfxdraw"),
             Against("cairo", CAIRO.format("hard")),
             Against("Skia", SHIFTED + "drawLine(x1, y1, x2, y2, hairline)"),
@@ -109,7 +109,7 @@ ROWS = [
         "line, ConeFilter() made in the call",
         N,
         EACH + "grey_line(x1, y1, x2, y2, antialias=ConeFilter())",
-        (Against("ours", EACH + "grey_line(x1, y1, x2, y2, antialias=one)", how="made before"),),
+        (Against("ours", EACH + "grey_line(x1, y1, x2, y2, antialias=one)", 0.95, "made before"),),
     ),
 ]
 

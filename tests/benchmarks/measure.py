@@ -32,6 +32,8 @@ class Against:
 class Row:
     """One contest: what it is called, how many calls a statement makes, our statement and the peers'.
 
+    `fastest` is the ratio that we want to whichever peer is the fastest.
+
     Where a statement is a loop, everybody's is: ``for`` over arguments made beforehand, in the form that the call
     takes, with one call in its body and nothing else.
     """
@@ -40,6 +42,7 @@ class Row:
     calls: int
     ours: str
     against: tuple[Against, ...] = ()
+    fastest: float | None = None
 
 
 class Verdicts:
@@ -110,13 +113,17 @@ class Contest:
                 k = (k + turn) % len(timers)
                 samples[k].append(timers[k].sample())
         ours = samples[0]
+        ratios = {
+            rival: median(their / our for our, their in zip(ours, theirs, strict=True))
+            for (rival, _), theirs in zip(there, samples[1:], strict=True)
+        }
+        fastest = min(ratios, key=lambda rival: ratios[rival], default=None)
         cells = []
-        for (rival, _), theirs in zip(there, samples[1:], strict=True):
-            ratio = median(their / our for our, their in zip(ours, theirs, strict=True))
+        for rival, ratio in ratios.items():
+            wanted = max(rival.at_least or 0, row.fastest or 0) if rival is fastest else rival.at_least
             cell = f"{rival} {ratio:.3g}x"
-            if rival.at_least:
-                verdict = VERDICTS.judge(row.name, str(rival), ratio, rival.at_least)
-                cell += f" (wanted {rival.at_least:.3g}: {verdict})"
+            if wanted:
+                cell += f" (wanted {wanted:.3g}: {VERDICTS.judge(row.name, str(rival), ratio, wanted)})"
             cells.append(cell)
         print(f"  {row.name:<44}{1e6 * median(ours) / row.calls:9.3f} us   {'   '.join(cells)}", flush=True)
 
