@@ -109,7 +109,7 @@ def pygame() -> Names:
     pygame.font.init()
     surface, wide = (pygame.Surface((WIDTH, HEIGHT), 0, bits) for bits in (8, 32))
     surface.set_palette([(grey, grey, grey) for grey in range(256)])
-    shapes = ("line", "rect", "circle", "polygon", "arc", "aaline", "aacircle")
+    shapes = ("line", "rect", "circle", "polygon", "aaline", "aacircle")
     gfx_shapes = ("line", "rectangle", "box", "circle", "hline", "vline", "trigon")
     return {
         **{name: getattr(pygame.draw, name) for name in shapes},
@@ -201,7 +201,6 @@ def agg() -> Names:
         "line": soft.line,
         "ellipse": soft.ellipse,
         "polygon": soft.polygon,
-        "arc": soft.arc,
         "pieslice": soft.pieslice,
         "thin": aggdraw.Pen(255, 1),
         "wide": aggdraw.Pen(255, 3),

@@ -153,7 +153,7 @@ def blend2d() -> Names:
 def floor() -> Names:
     """Lines as 32-bit numbers."""
     table = shapes()["table"].astype(np.int32)
-    return canvases.floor() | {"segments_array": table, "int32_table": table.ctypes.data}
+    return canvases.floor() | {"int32_table": table.ctypes.data, "memory of the table": table}
 
 
 def kept() -> Names:
