@@ -15,10 +15,10 @@ from hypothesis import HealthCheck, settings
 import paneldraw
 
 # No deadline: a test never times. The fixtures here hold nothing that an example could change.
-settings.register_profile(
-    "paneldraw", deadline=None, max_examples=50, suppress_health_check=[HealthCheck.function_scoped_fixture]
-)
-settings.load_profile("paneldraw")
+COMMON = settings(deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+settings.register_profile("quick", COMMON, max_examples=10)
+settings.register_profile("thorough", COMMON, max_examples=50)
+settings.load_profile("quick")  # unless --hypothesis-profile names another
 
 
 def pytest_addoption(parser):

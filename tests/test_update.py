@@ -6,8 +6,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from exhaustive import cheapest, shortest
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
+from searching import examples
 
 from paneldraw import simulator
 from paneldraw.controllers import SH1106, SSD1306, SSD1327, Controller, PagePointer
@@ -262,13 +263,12 @@ def small_updates(draw):
     return controller, draw(cells), draw(st.sets(cells, min_size=1, max_size=6))
 
 
-@settings(max_examples=100)
+@examples(2)
 @given(small_updates())
 def test_the_page_pointers_plan_is_the_cheapest_there_is(update):
     _assert_cheapest(update, I2C)
 
 
-@settings(max_examples=50)
 @given(small_updates(), st.builds(Cost, st.integers(0, 5), st.integers(0, 5), st.none(), st.none()))
 def test_on_other_wires_too(update, cost):
     _assert_cheapest(update, cost)

@@ -6,8 +6,9 @@ import importlib
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
+from searching import examples
 from windows import Ram, cheapest
 
 from paneldraw.controllers import SSD1327, Controller, Window
@@ -115,7 +116,7 @@ def bounding(small, cost, cells, state):
     return (cost.command + 3 * commands if commands else 0) + data
 
 
-@settings(max_examples=60)
+@examples(1.2)
 @given(walks(4))
 def test_between_the_cheapest_there_is_and_one_bounding_window(walk):
     small, cost, steps = walk

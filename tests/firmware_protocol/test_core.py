@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import pytest
 from c_core import FIRMWARE, Core, made
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given
 from hypothesis import strategies as st
+from searching import examples
 
 from firmware_protocol import Device
 from firmware_protocol.frames import FrameDecoder, encode_frame
@@ -79,7 +80,7 @@ PIECES = st.one_of(
 )
 
 
-@settings(max_examples=300, suppress_health_check=[HealthCheck.function_scoped_fixture], deadline=None)
+@examples(6)
 @given(
     st.lists(st.tuples(PIECES, st.sampled_from(["", "", "", "cut", "flip", "gone", "back", "wait", "line error"]))),
     st.data(),
@@ -119,7 +120,7 @@ def test_the_core_does_what_the_reference_does(core: Core, work: list[tuple[byte
             written.clear()
 
 
-@settings(max_examples=60, suppress_health_check=[HealthCheck.function_scoped_fixture], deadline=None)
+@examples(1.2)
 @given(st.lists(RUNS.filter(bool), min_size=1, max_size=3))
 def test_frames_that_come_while_the_bus_is_busy_wait_their_turn(core: Core, work) -> None:
     core.start()

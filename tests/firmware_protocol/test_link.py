@@ -7,8 +7,9 @@ import tracemalloc
 from dataclasses import replace
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
+from searching import examples
 from simulated import Noise, SimulatedPort, whole
 
 from firmware_protocol import (
@@ -76,7 +77,7 @@ def test_a_noisy_line_costs_bytes_and_no_picture(name: str, baudrate: int) -> No
     assert port.device.counters.overflows == 0
 
 
-@settings(max_examples=30, deadline=None)
+@examples(0.6)
 @given(
     st.integers(0, 2**31),
     st.builds(Noise, *[st.floats(0, 0.003)] * 3),
@@ -234,7 +235,7 @@ def test_a_port_that_is_no_panel(answer, says: str) -> None:
     assert port.now < 4
 
 
-@settings(max_examples=150, deadline=None)
+@examples(3)
 @given(st.randoms(use_true_random=False), st.integers(0, 255))
 def test_whatever_a_device_says_ends_in_a_link_error_or_well(random: random.Random, manners: int) -> None:
     """The device answers each frame with messages of any content, garbage, or nothing."""

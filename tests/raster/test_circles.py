@@ -7,9 +7,10 @@ from math import hypot
 import definitions
 import numpy as np
 import pytest
-from hypothesis import example, given, settings
+from hypothesis import example, given
 from hypothesis import strategies as st
 from PIL import Image, ImageDraw
+from searching import examples
 
 WIDTH, HEIGHT = 21, 15
 LARGE_RADIUS, FAR = 2**14, 2**29  # beyond either the raster computes in another way
@@ -36,14 +37,14 @@ def passing_circles(draw, radius):
 
 
 @pytest.mark.parametrize("radius", [100, LARGE_RADIUS, 2**30])
-@settings(max_examples=20)
+@examples(0.4)
 @given(st.data(), st.booleans())
 def test_large_circles_equal_the_nearest_pixels(package, radius, data, fill):
     x, y, r = data.draw(passing_circles(radius))
     assert (drawn(package, x, y, r, fill) == definitions.circle(WIDTH, HEIGHT, x, y, r, fill)).all()
 
 
-@settings(max_examples=25)
+@examples(0.5)
 @given(st.sampled_from([LARGE_RADIUS - 1, LARGE_RADIUS, LARGE_RADIUS + 1]), st.integers(-2, 2), st.booleans())
 def test_circles_on_both_sides_of_the_threshold_equal_the_nearest_pixels(package, r, shift, fill):
     for x, y in ((10 + shift - r, 7), (10, 7 + shift + r), (10 + r * 7071 // 10000, 7 + shift - r * 7071 // 10000)):

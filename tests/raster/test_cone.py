@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
+from searching import examples
 
 positions = st.integers(-3 * 256, 15 * 256).map(lambda number: number / 256)
 widths = st.integers(64, 5 * 256).map(lambda number: number / 256)
@@ -39,7 +40,7 @@ def integral(line, width, square, radius, shape, size=8, cells=200):
 
 
 @pytest.mark.parametrize("shape", heights)
-@settings(max_examples=15)
+@examples(0.3)
 @given(positions, positions, positions, positions, widths, st.booleans(), radii)
 def test_lines_are_within_two_levels_of_the_integral(package, shape, x1, y1, x2, y2, width, square, radius):
     fb = package.Framebuffer(8, 8, 8)

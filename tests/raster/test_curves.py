@@ -8,9 +8,10 @@ import definitions
 import numpy as np
 import pytest
 import round_definitions
-from hypothesis import assume, example, given, settings
+from hypothesis import assume, example, given
 from hypothesis import strategies as st
 from PIL import Image, ImageDraw
+from searching import examples
 
 WIDTH, HEIGHT = 21, 15
 LARGE = 2**14  # radii beyond it are drawn in another way
@@ -59,7 +60,7 @@ def passing_ellipses(draw, radius):
 
 
 @pytest.mark.parametrize("radius", [100, LARGE, 2**40, 2**70])
-@settings(max_examples=20)
+@examples(0.4)
 @given(st.data(), st.booleans(), st.integers(0, 15))
 def test_large_ellipses_equal_their_definition(package, radius, data, fill, quadrants):
     x, y, xr, yr = data.draw(passing_ellipses(radius))
@@ -192,7 +193,7 @@ def passing_arcs(draw, radius):
 
 
 @pytest.mark.parametrize("radius", [LARGE, 2**40, 2**63])
-@settings(max_examples=15)
+@examples(0.3)
 @given(st.data())
 def test_large_sectors_are_cut_off_from_their_disc(package, radius, data):
     x, y, r, start, end = data.draw(passing_arcs(radius))
@@ -254,7 +255,7 @@ def test_rounded_rectangles_are_quadrants_and_sides(package, x, y, w, h, r, fill
 
 
 @pytest.mark.parametrize("r", [3, LARGE, 2**40])
-@settings(max_examples=20)
+@examples(0.4)
 @given(st.data(), st.booleans())
 def test_large_rounded_rectangles_are_quadrants_and_sides(package, r, data, fill):
     side = st.sampled_from([2 * r, 2 * r + 1, 2 * r + 2, 3 * r, 2**63, 2**70])

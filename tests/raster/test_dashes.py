@@ -10,8 +10,9 @@ import numpy as np
 import pytest
 from figures import HEIGHT, ROUNDING, WIDTH, counted, dashed_stroke, stroke_bounds
 from golden import assert_pattern
-from hypothesis import assume, example, given, settings
+from hypothesis import assume, example, given
 from hypothesis import strategies as st
+from searching import examples
 
 near = st.integers(-20, 33)
 far = st.one_of(
@@ -87,7 +88,6 @@ def test_a_dash_may_be_of_any_length(package, length, ends):
 
 
 @pytest.mark.parametrize("join", ["miter", "round", "bevel"])
-@settings(max_examples=50)
 @given(
     st.lists(st.tuples(in_256ths, in_256ths), min_size=2, max_size=4),
     st.integers(64, 6 * 256).map(lambda v: v / 256),
@@ -114,7 +114,7 @@ def test_thick_dashes_are_the_stroke_cut_along_the_line(package, join, points, w
 
 
 @pytest.mark.parametrize("distance", [2**19, 2**40, 2**70])
-@settings(max_examples=25)
+@examples(0.5)
 @given(
     st.sampled_from([(1, 0), (0, -1), (3, 4), (-4, 3), (-5, -12), (8, -15), (-7, 24)]),
     st.tuples(*[st.integers(0, 8)] * 2),
@@ -186,7 +186,7 @@ def test_the_dda_rounds_the_exact_line(package, ends):
     assert (fb.pixels == definitions.bresenham(WIDTH, HEIGHT, *ends)).all()
 
 
-@settings(max_examples=10)
+@examples(0.2)
 @given(st.integers(-(2**29), -1), st.integers(0, 30), st.integers(2**16, 2**29), st.integers(-40, 70), st.booleans())
 def test_the_dda_does_so_over_the_widest_picture(package, x1, y1, x2, y2, turned):
     """The slope's rounding adds up over 65536 steps, and must not decide."""

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import Phase, example, given, settings
 from hypothesis import strategies as st
+from searching import examples
 
 import paneldraw
 
@@ -73,7 +74,7 @@ def perform(package, fb, call, arguments, level, op):
 quickly = (Phase.explicit, Phase.reuse, Phase.generate)
 
 
-@settings(max_examples=200, phases=quickly)
+@examples(4, phases=quickly)
 @given(
     st.lists(st.tuples(calls, ops), min_size=1, max_size=6), st.integers(1, 40), st.integers(1, 40), st.integers(1, 15)
 )
@@ -97,7 +98,7 @@ def perform_all(package, script, width, height, level):
     return fb.pixels
 
 
-@settings(max_examples=50, phases=quickly)
+@settings(phases=quickly)
 @given(st.lists(st.tuples(calls, ops), min_size=10, max_size=20))
 def test_neighbors_in_memory_are_left_alone(script):
     """Framebuffers of a size lie close together; only the one drawn on may change."""

@@ -9,8 +9,9 @@ import pytest
 from definitions import painted
 from figures import HEIGHT, WIDTH, as_counted, counted, far_polygon, polygon
 from golden import assert_pattern
-from hypothesis import assume, example, given, settings
+from hypothesis import assume, example, given
 from hypothesis import strategies as st
+from searching import examples
 
 rules = st.sampled_from(["even-odd", "nonzero"])
 references = st.sampled_from(["center", "corner"])
@@ -72,7 +73,7 @@ def test_the_rules_differ_where_a_polygon_goes_around_twice(package):
     )
 
 
-@settings(max_examples=100)
+@examples(2)
 @given(corners, rules, few_samples)
 @example(STAR, "even-odd", (4, "center"))
 @example(STAR, "nonzero", (4, "corner"))
@@ -85,7 +86,7 @@ def test_polygons_equal_counting(package, points, rule, samples):
     assert (counted(package, filled(points, rule), *samples) == polygon(points, rule, *samples)).all()
 
 
-@settings(max_examples=20)
+@examples(0.4)
 @given(corners, rules, st.tuples(st.integers(5, 16), references))
 @example(BOW, "nonzero", (16, "corner"))
 def test_polygons_of_many_samples_equal_counting(package, points, rule, samples):
@@ -94,7 +95,7 @@ def test_polygons_of_many_samples_equal_counting(package, points, rule, samples)
     assert (counted(package, filled(points, rule), *samples) == as_counted(polygon(points, rule, *samples), n)).all()
 
 
-@settings(max_examples=10)
+@examples(0.2)
 @given(st.lists(st.tuples(in_256ths, in_256ths), min_size=40, max_size=80), rules, few_samples)
 def test_tangles_equal_counting(package, points, rule, samples):
     assume(not is_flat(points))
@@ -111,7 +112,7 @@ def test_one_bit_pixels_are_lit_when_half_of_them_is_covered(package, points, ru
 
 
 @pytest.mark.parametrize("op", ["over", "xor", "add", "max", "clear"])
-@settings(max_examples=12)
+@examples(0.24)
 @given(corners, rules, few_samples, st.integers(0, 15), st.integers(0, 2**32 - 1))
 def test_operations_blend_what_is_covered(package, op, points, rule, samples, level, seed):
     assume(not is_flat(points))
@@ -192,7 +193,7 @@ def far_polygons(draw, reach):
 
 
 @pytest.mark.parametrize("reach", [2**16, 2**19, 2**33, 2**63, 2**70])
-@settings(max_examples=25)
+@examples(0.5)
 @given(st.data(), rules, few_samples)
 def test_polygons_from_far_away_are_exact_to_a_512th_of_a_pixel(package, reach, data, rule, samples):
     points = data.draw(far_polygons(reach))

@@ -9,8 +9,9 @@ import figures
 import filter_definitions as definitions
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
+from searching import examples
 
 import paneldraw
 
@@ -51,7 +52,7 @@ def assert_filtered(package, filter, draw, inside):
 
 
 @pytest.mark.parametrize("rule", ["even-odd", "nonzero"])
-@settings(max_examples=30)
+@examples(0.6)
 @given(
     filters, st.one_of(st.lists(points, min_size=3, max_size=9), flat, flat.map(lambda path: [p[::-1] for p in path]))
 )
@@ -64,7 +65,7 @@ def test_polygons(package, rule, filter, corners):
 
 
 @pytest.mark.parametrize("join", ["miter", "round", "bevel"])
-@settings(max_examples=30)
+@examples(0.6)
 @given(filters, paths, widths, st.sampled_from(["butt", "square", "round"]), st.booleans())
 def test_polylines(package, join, filter, path, width, cap, closed):
     pieces = figures.stroke(path, width, join, cap, closed)
@@ -72,7 +73,7 @@ def test_polylines(package, join, filter, path, width, cap, closed):
     assert_filtered(package, filter, lambda fb, cone: fb.polyline(path, antialias=cone, **style), figures.union(pieces))
 
 
-@settings(max_examples=40)
+@examples(0.8)
 @given(
     filters,
     paths,
@@ -89,7 +90,7 @@ def test_dashes(package, filter, path, width, dash, cap, closed):
     assert_filtered(package, filter, lambda fb, cone: fb.polyline(path, antialias=cone, **style), figures.union(pieces))
 
 
-@settings(max_examples=40)
+@examples(0.8)
 @given(
     filters,
     points,
@@ -108,7 +109,7 @@ def test_circles_and_ellipses(package, filter, center, sizes, width, fill, quadr
     assert_filtered(package, filter, lambda fb, cone: fb.ellipse(*center, *sizes, antialias=cone, **style), inside)
 
 
-@settings(max_examples=40)
+@examples(0.8)
 @given(filters, points, positions(0, 6), widths, st.integers(-360, 360), st.integers(1, 359))
 def test_arcs_and_sectors(package, filter, center, r, width, start, swept):
     wedge = definitions.wedge(start, swept)
@@ -128,7 +129,7 @@ def test_arcs_and_sectors(package, filter, center, r, width, start, swept):
         )
 
 
-@settings(max_examples=40)
+@examples(0.8)
 @given(
     filters,
     points,
@@ -147,7 +148,7 @@ def test_rectangles(package, filter, corner, sides, r, width, fill):
 
 
 @pytest.mark.parametrize("r", [40, 5000, 20000, 2**30])
-@settings(max_examples=6)
+@examples(0.2)
 @given(filters, st.integers(0, 359), widths, st.booleans())
 def test_large_circles(package, r, filter, angle, width, fill):
     """Beyond some size of a curve only the part in sight is followed."""
@@ -263,7 +264,7 @@ def test_both_speeds_give_equal_pixels(sources, shape, filter):
     assert (compiled.pixels == interpreted.pixels).all()
 
 
-@settings(max_examples=25)
+@examples(0.5)
 @given(st.lists(points, min_size=12, max_size=40), filters)
 def test_tangles(package, corners, filter):
     """Many crossings in each pixel, some of many edges in one point."""
@@ -329,7 +330,7 @@ calls = st.one_of(
 )
 
 
-@settings(max_examples=300)
+@examples(6)
 @given(calls)
 def test_numbers_of_any_size(package, call):
     """Where the samples of a pixel and of all its neighbors say the same, so does the filter."""

@@ -5,8 +5,9 @@ from __future__ import annotations
 import definitions
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
+from searching import examples
 
 WIDTH, HEIGHT = 12, 9
 DEPTHS = (1, 2, 4, 8)
@@ -68,7 +69,7 @@ def pictures(draw, package):
     return fb, draw(st.integers(0, fb.max_level))
 
 
-@settings(max_examples=150)
+@examples(3)
 @given(st.data(), shapes(), st.sampled_from(OPS))
 def test_every_pixel_of_every_shape_meets_what_is_there_once(package, data, shape, op):
     fb, level = data.draw(pictures(package))

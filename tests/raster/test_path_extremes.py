@@ -6,8 +6,9 @@ import random
 
 import numpy as np
 import pytest
-from hypothesis import example, given, settings
+from hypothesis import example, given
 from hypothesis import strategies as st
+from searching import examples
 
 import paneldraw
 
@@ -49,7 +50,7 @@ def draw_at_random(package, fb, seed, reach):
             )
 
 
-@settings(max_examples=40)
+@examples(0.8)
 @given(seeds, reaches, st.integers(1, 24), st.integers(1, 16))
 def test_both_speeds_give_equal_pixels(sources, seed, reach, width, height):
     compiled = paneldraw.Framebuffer(width, height, depth=4)
@@ -60,7 +61,7 @@ def test_both_speeds_give_equal_pixels(sources, seed, reach, width, height):
     assert (compiled.pixels == interpreted.pixels).all()
 
 
-@settings(max_examples=20)
+@examples(0.4)
 @given(seed=seeds, reach=reaches, box=st.tuples(*[st.integers(0, 9)] * 2, *[st.integers(1, 9)] * 2))
 @example(seed=330636, reach=4, box=(6, 0, 5, 4))  # an endless dash, once cut where the window ended
 def test_views_and_clips_hold_what_is_theirs(package, seed, reach, box):
@@ -82,7 +83,7 @@ def test_views_and_clips_hold_what_is_theirs(package, seed, reach, box):
     assert (fb.pixels[outside] == before[outside]).all()
 
 
-@settings(max_examples=40)
+@examples(0.8)
 @given(seeds, reaches)
 def test_neighbors_in_memory_are_left_alone(seed, reach):
     row = [paneldraw.Framebuffer(16, 8, depth=8) for _ in range(9)]

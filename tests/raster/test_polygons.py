@@ -7,8 +7,9 @@ from itertools import pairwise
 import definitions
 import numpy as np
 import pytest
-from hypothesis import assume, example, given, settings
+from hypothesis import assume, example, given
 from hypothesis import strategies as st
+from searching import examples
 
 WIDTH, HEIGHT = 14, 10
 near = st.one_of(
@@ -34,7 +35,7 @@ def filled(package, corners, rule, n, reference):
     return fb.pixels
 
 
-@settings(max_examples=100)
+@examples(2)
 @given(corners, rules, samples)
 @example([(0, 0), (8, 0), (8, 6), (0, 6)], "even-odd", (1, "center"))
 @example([(0, 0), (8, 6), (8, 0), (0, 6)], "nonzero", (2, "corner"))
@@ -138,7 +139,7 @@ def test_a_polyline_of_one_segment_is_near_the_line(package, ends, width, sample
     width=st.floats(0.5, 9),
     data=st.data(),
 )
-@settings(max_examples=20)
+@examples(0.4)
 def test_strokes_touch_a_pixel_once(package, join, cap, points, closed, width, data):
     dash = data.draw(st.one_of(st.none(), dashes))
     level = data.draw(st.integers(1, 15))

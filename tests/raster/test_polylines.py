@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 from figures import HEIGHT, ROUNDING, WIDTH, counted, stroke, stroke_bounds
 from golden import assert_pattern
-from hypothesis import assume, example, given, settings
+from hypothesis import assume, example, given
 from hypothesis import strategies as st
+from searching import examples
 
 whole = st.integers(-3, 15)
 quarters = st.integers(-12, 60).map(lambda v: v / 4)
@@ -44,7 +45,7 @@ def has_even_joins(points, closed):
 
 
 @pytest.mark.parametrize("join", ["miter", "round", "bevel"])
-@settings(max_examples=60)
+@examples(1.2)
 @given(paths, widths, caps, st.booleans(), samples)
 @example([(2, 2), (10, 2), (10, 7)], 3, "butt", False, (4, "center"))
 @example([(2, 2), (10, 2), (2, 3)], 3, "square", False, (4, "center"))  # beyond the miter limit
@@ -69,7 +70,7 @@ def pythagorean_paths(draw):
     return [(x / 256, y / 256) for x, y in points]
 
 
-@settings(max_examples=40)
+@examples(0.8)
 @given(pythagorean_paths(), st.integers(200, 500).map(lambda k: 5 * (2 * k + 1) / 256), joins, caps)
 @example([(4, 3.5), (7, 7.5)], 2005 / 256, "round", "round")
 def test_there_is_no_seam_where_pieces_meet(package, points, width, join, cap):
@@ -78,7 +79,7 @@ def test_there_is_no_seam_where_pieces_meet(package, points, width, join, cap):
     assert_between(stroke_bounds(stroke(points, width, join, cap), 15, "center"), counts)
 
 
-@settings(max_examples=30)
+@examples(0.6)
 @given(st.lists(st.tuples(in_256ths, in_256ths), min_size=2, max_size=5), widths, joins, caps)
 def test_nor_anywhere_else(package, points, width, join, cap):
     assume(has_even_joins(points, False))
@@ -150,7 +151,7 @@ def arms(draw):
 
 
 @pytest.mark.parametrize("reach", [2**15, 2**20, 2**40, 2**63, 2**70])
-@settings(max_examples=20)
+@examples(0.4)
 @given(
     arms(),
     st.tuples(whole, whole),

@@ -7,8 +7,9 @@ from math import cos, radians, sin
 import numpy as np
 import pytest
 import round_definitions as definitions
-from hypothesis import example, given, settings
+from hypothesis import example, given
 from hypothesis import strategies as st
+from searching import examples
 
 WIDTH, HEIGHT = 13, 9
 LARGE = 2**13  # pixels; larger radii the raster counts in another way
@@ -121,7 +122,7 @@ def test_ellipses_equal_counting(package, samples, x, y, xr, yr, width, fill, qu
 shapes = st.sampled_from(["arc", "slice", "sector"])
 
 
-@settings(max_examples=100)
+@examples(2)
 @given(few_samples, coordinates, coordinates, lengths, angles, angles, widths, shapes)
 @example((1, "center"), 6, 4, 4, 0, 90, 1, "slice")
 @example((1, "center"), 6, 4, 4, 90, 0, 1, "slice")
@@ -144,7 +145,7 @@ def test_rounded_rectangles_equal_counting(package, samples, x, y, w, h, r, widt
     assert_round_rect(package, samples, x, y, w, h, r, width, fill)
 
 
-@settings(max_examples=6)
+@examples(0.2)
 @given(many_samples, coordinates, coordinates, lengths, lengths, angles, widths, st.booleans())
 def test_many_samples_equal_counting(package, samples, x, y, xr, yr, start, width, fill):
     assert_circle(package, samples, x, y, xr, width, fill)
@@ -164,7 +165,7 @@ def passing_circles(draw, radius):
 
 
 @pytest.mark.parametrize("radius", [300, LARGE, 2**20, 2**63, 2**70])
-@settings(max_examples=15)
+@examples(0.3)
 @given(st.data(), few_samples, widths, st.booleans(), angles)
 def test_large_shapes_equal_counting(package, radius, data, samples, width, fill, start):
     x, y, r = data.draw(passing_circles(radius))
@@ -176,7 +177,7 @@ def test_large_shapes_equal_counting(package, radius, data, samples, width, fill
     assert_turn(package, samples, x, y, r, start, end, width, data.draw(shapes))
 
 
-@settings(max_examples=20)
+@examples(0.4)
 @given(st.sampled_from([LARGE - 1, LARGE - 0.5, LARGE, LARGE + 1]), widths, few_samples, st.booleans())
 def test_shapes_on_both_sides_of_the_threshold_equal_counting(package, r, width, samples, fill):
     assert_circle(package, samples, 7 + r, 3, r, width, fill)
@@ -255,7 +256,7 @@ def any_shape(draw):
     return lambda fb, **more: getattr(fb, name)(*place, *arguments, **options, **more)
 
 
-@settings(max_examples=100)
+@examples(2)
 @given(any_shape(), st.one_of(st.none(), antialiased), st.integers(0, 2**32))
 def test_xor_twice_is_nothing(package, shape, samples, seed):
     antialias = samples and package.Supersample(*samples)
@@ -266,7 +267,7 @@ def test_xor_twice_is_nothing(package, shape, samples, seed):
     assert (fb.pixels == before).all()
 
 
-@settings(max_examples=100)
+@examples(2)
 @given(any_shape(), st.one_of(st.none(), antialiased), st.sampled_from(["xor", "add", "max"]))
 def test_on_a_blank_picture_operations_are_the_same(package, shape, samples, op):
     antialias = samples and package.Supersample(*samples)

@@ -5,8 +5,9 @@ from __future__ import annotations
 import definitions
 import numpy as np
 import pytest
-from hypothesis import example, given, settings
+from hypothesis import example, given
 from hypothesis import strategies as st
+from searching import examples
 
 import paneldraw
 
@@ -42,7 +43,7 @@ def counted(ends, width, cap="square", n=1, reference="center"):
     return (counts * 510 + 256) // 512 if n == 16 else counts
 
 
-@settings(max_examples=80)
+@examples(1.6)
 @given(st.tuples(*[coordinates] * 4), widths, caps, few_samples)
 @example((2, 2, 9, 2), 3, "butt", (1, "center"))
 @example((2, 2, 9, 6), 4, "square", (1, "corner"))
@@ -59,7 +60,7 @@ within = st.tuples(
 )
 
 
-@settings(max_examples=150)
+@examples(3)
 @given(within, st.integers(100, 1000).map(lambda v: v / 256), caps, st.sampled_from([(4, "center"), (3, "corner")]))
 def test_lines_within_the_picture_equal_counting(package, ends, width, cap, samples):
     assert (drawn(package, ends, width, cap, *samples) == counted(ends, width, cap, *samples)).all()
@@ -76,7 +77,7 @@ def test_points_just_within_an_edge_are_in(package, across, along):
         assert (lit == counted(ends, 6 / 256)).all()
 
 
-@settings(max_examples=25)
+@examples(0.5)
 @given(st.tuples(*[coordinates] * 4), widths, caps, samples)
 def test_lines_of_many_samples_equal_counting(package, ends, width, cap, samples):
     assert (drawn(package, ends, width, cap, *samples) == counted(ends, width, cap, *samples)).all()
@@ -91,7 +92,7 @@ def crossing_lines(draw, reach):
 
 
 @pytest.mark.parametrize("reach", [NEAR // 2, 2 * NEAR, 2**63, 2**70])
-@settings(max_examples=30)
+@examples(0.6)
 @given(st.data(), widths, caps, few_samples)
 def test_lines_from_far_away_equal_counting(package, reach, data, width, cap, samples):
     ends = data.draw(crossing_lines(reach))

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
+from searching import examples
 
 from .helpers import commands, started
 
@@ -72,7 +73,7 @@ steps = st.one_of(
 )
 
 
-@settings(max_examples=200)
+@examples(4)
 @given(st.lists(steps, min_size=5, max_size=25))
 def test_every_byte_lands_where_the_datasheet_says(sequence: list[bytes | tuple[str, int, int]]) -> None:
     chip, model = started(mode=2), Model()

@@ -12,8 +12,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 from far_ends import Board, EmulatedBoard, Server, pty, serial, tty
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
+from searching import examples
 from simulated import Noise, SimulatedPort
 
 from firmware_protocol.device import UNO
@@ -118,7 +119,7 @@ SETTINGS = ("invert", "sleep", "wake", "contrast")
 BEFORE = st.one_of(st.just(WHOLE), st.composite(part)(), st.sampled_from(SETTINGS))
 
 
-@settings(max_examples=150, deadline=None)
+@examples(3)
 @given(st.lists(st.tuples(BEFORE, st.integers(0, 127), st.integers(0, 63)), max_size=6), st.integers(0, 99))
 def test_a_pixel_is_thirteen_bytes_at_most_after_anything(steps, seed):
     port, chip, pick = SimulatedPort(), simulator.SSD1306(128, 64), np.random.default_rng(seed)
