@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 from golden import assert_golden
 from hypothesis import HealthCheck, settings
+from running import forked, started
 
 import paneldraw
 
@@ -30,6 +31,16 @@ def golden(request, tmp_path):
     """Compare a framebuffer with a picture under tests/golden: ``golden(fb, "name.png")``."""
     update = request.config.getoption("--update-golden")
     return lambda fb, name: assert_golden(fb, name, tmp_path, update)
+
+
+# Elsewhere a copy of a process may find its libraries in disorder.
+PROCESSES = [forked, pytest.param(started, marks=pytest.mark.thorough)] if sys.platform == "linux" else [started]
+
+
+@pytest.fixture(params=PROCESSES, ids=lambda process: process.__name__)
+def run(request):
+    """Run the command: ``run("text", "Hello", stdin="", NAME="value")``, with what the environment shall hold."""
+    return request.param
 
 
 class Sources:

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from PIL import Image
-from running import assert_one_line_of_advice, run
+from running import assert_one_line_of_advice
 
 from paneldraw import Panel, bench, simulator
 from paneldraw.controllers import SSD1306
@@ -72,7 +72,7 @@ def test_a_bar_is_as_long_as_its_bytes():
     assert (first, second, whole) == (130, 65, 260)
 
 
-def test_the_command_prints_the_table_and_saves_the_chart(tmp_path):
+def test_the_command_prints_the_table_and_saves_the_chart(run, tmp_path):
     path = tmp_path / "chart.png"
     done = run("bench", "--frames", 2, "--save", path)
     assert done.returncode == 0, done.stderr
@@ -83,7 +83,7 @@ def test_the_command_prints_the_table_and_saves_the_chart(tmp_path):
         assert np.asarray(chart).max() == 255
 
 
-def test_what_cannot_be_saved_is_said_before_the_work(tmp_path):
+def test_what_cannot_be_saved_is_said_before_the_work(run, tmp_path):
     assert_one_line_of_advice(run("bench", "--save", tmp_path / "none" / "chart.png"), 1)
     done = run("bench", "--save", "chart.gif")
     assert done.returncode == 2

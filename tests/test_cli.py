@@ -11,7 +11,7 @@ import sysconfig
 import numpy as np
 import pytest
 from PIL import Image
-from running import ENVIRONMENT, assert_one_line_of_advice, lit, picture_of, run
+from running import ENVIRONMENT, assert_one_line_of_advice, lit, picture_of
 
 from paneldraw import playback
 from paneldraw.cli import main
@@ -32,7 +32,7 @@ def picture(tmp_path):
 # A demo with nobody watching
 
 
-def test_a_strangers_first_command():
+def test_a_strangers_first_command(run):
     done = run("demo")
     assert done.returncode == 0
     assert re.fullmatch(r"(drawing: \d+ of 300 frames\n)*", done.stderr)
@@ -42,7 +42,7 @@ def test_a_strangers_first_command():
     assert "300 frames" in done.stdout.splitlines()[-1]
 
 
-def test_a_pipe_that_knows_no_unicode():
+def test_a_pipe_that_knows_no_unicode(run):
     done = run("demo", "cube", "--frames", 2, PYTHONIOENCODING="ascii")
     assert done.returncode == 0
     assert done.stdout.isascii()
@@ -57,7 +57,7 @@ def test_a_reader_who_leaves_early():
 
 
 @pytest.mark.parametrize("size", ["128x32", "72x40", "64x48"])
-def test_a_demo_on_panels_of_other_sizes(size):
+def test_a_demo_on_panels_of_other_sizes(run, size):
     width, height = map(int, size.split("x"))
     done = run("demo", "--frames", 2, "--panel", f"sim://ssd1306?size={size}")
     assert done.returncode == 0, done.stderr
@@ -67,7 +67,7 @@ def test_a_demo_on_panels_of_other_sizes(size):
 # Files
 
 
-def test_a_saved_demo_moves(tmp_path):
+def test_a_saved_demo_moves(run, tmp_path):
     path = tmp_path / "scene.gif"
     done = run("demo", "--save", path, "--frames", 12, "--fps", 10)
     assert done.returncode == 0, done.stderr
@@ -84,13 +84,13 @@ def test_a_saved_demo_moves(tmp_path):
     assert set(durations[:-1]) == {100}
 
 
-def test_what_is_saved_is_the_same_every_time(tmp_path):
+def test_what_is_saved_is_the_same_every_time(run, tmp_path):
     for name in ("a.gif", "b.gif"):
         run("demo", "clock", "--save", tmp_path / name, "--frames", 3)
     assert (tmp_path / "a.gif").read_bytes() == (tmp_path / "b.gif").read_bytes()
 
 
-def test_a_saved_still_is_the_moment_asked_for(tmp_path):
+def test_a_saved_still_is_the_moment_asked_for(run, tmp_path):
     for seconds in ("1", "4"):
         done = run("demo", "clock", "--save", tmp_path / f"{seconds}.png", "--seconds", seconds)
         assert done.returncode == 0, done.stderr
@@ -107,7 +107,7 @@ def test_long_work_says_how_far_it_is(tmp_path, monkeypatch, capsys):
     assert told[-1] == "writing: 5 of 5 frames"
 
 
-def test_a_file_that_cannot_be_written(tmp_path):
+def test_a_file_that_cannot_be_written(run, tmp_path):
     done = run("demo", "--save", tmp_path / "nowhere" / "a.gif", "--frames", 2)
     assert_one_line_of_advice(done, 1)
 
@@ -115,7 +115,7 @@ def test_a_file_that_cannot_be_written(tmp_path):
 # Pictures and text
 
 
-def test_a_picture_is_shown_as_large_as_fits(picture):
+def test_a_picture_is_shown_as_large_as_fits(run, picture):
     shown = picture_of(run("show", picture).stdout)
     rows = [line for line in shown if line.strip()]
     assert len(rows) == 16
@@ -125,23 +125,23 @@ def test_a_picture_is_shown_as_large_as_fits(picture):
 @pytest.mark.parametrize(
     ("options", "share"), [(["--fit", "cover"], 1 / 2), (["--fit", "stretch"], 1 / 2), (["--invert"], 1 / 4)]
 )
-def test_ways_to_show_a_picture(picture, options, share):
+def test_ways_to_show_a_picture(run, picture, options, share):
     assert lit(run("show", picture, *options).stdout) == 128 * 64 * share
 
 
-def test_grey_is_dithered(tmp_path):
+def test_grey_is_dithered(run, tmp_path):
     Image.new("L", (128, 64), 128).save(tmp_path / "grey.png")
     share = lit(run("show", tmp_path / "grey.png").stdout) / (128 * 64)
     assert 0.48 < share < 0.52
     assert lit(run("show", tmp_path / "grey.png", "--dither", "none").stdout) == 128 * 64
 
 
-def test_transparent_is_dark(tmp_path):
+def test_transparent_is_dark(run, tmp_path):
     Image.new("RGBA", (128, 64), (255, 255, 255, 0)).save(tmp_path / "clear.png")
     assert lit(run("show", tmp_path / "clear.png").stdout) == 0
 
 
-def test_text_stands_in_the_middle():
+def test_text_stands_in_the_middle(run):
     rows = picture_of(run("text", "Hello").stdout)
     filled = [index for index, line in enumerate(rows) if line.strip()]
     assert filled == [14, 15, 16, 17]
@@ -149,19 +149,19 @@ def test_text_stands_in_the_middle():
     assert (columns[0], columns[-1]) == (49, 77)
 
 
-def test_words_become_lines_where_they_must():
+def test_words_become_lines_where_they_must(run):
     rows = picture_of(run("text", "every", "word", "of", "this", "can", "be", "read").stdout)
     assert len([line for line in rows if line.strip()]) > 4
     assert not any(line[0] != " " or line[-1] != " " for line in rows)
 
 
-def test_text_from_standard_input_and_larger():
+def test_text_from_standard_input_and_larger(run):
     plain = run("text", "-", stdin="21.5°C\n").stdout
     assert lit(plain) == lit(run("text", "21.5°C").stdout) > 0
     assert lit(run("text", "21.5°C", "--scale", 2).stdout) == 4 * lit(plain)
 
 
-def test_text_in_a_font_of_ones_own(tmp_path):
+def test_text_in_a_font_of_ones_own(run, tmp_path):
     from PIL import ImageFont
 
     path = tmp_path / "face.ttf"
@@ -173,18 +173,18 @@ def test_text_in_a_font_of_ones_own(tmp_path):
 # What there is
 
 
-def test_detect_finds_the_simulated_panel():
+def test_detect_finds_the_simulated_panel(run):
     done = run("detect", "--panel", "sim://ssd1306")
     assert done.returncode == 0
     assert "3c answers" in done.stdout
     assert "paneldraw demo --panel sim://" in done.stdout
 
 
-def test_detect_without_a_bus():
+def test_detect_without_a_bus(run):
     assert_one_line_of_advice(run("detect", "--panel", "i2c://77"), 1)
 
 
-def test_info_tells_what_a_bug_report_needs():
+def test_info_tells_what_a_bug_report_needs(run):
     done = run("info")
     assert done.returncode == 0
     told = dict(line.split(":", 1) for line in done.stdout.splitlines())
@@ -193,11 +193,11 @@ def test_info_tells_what_a_bug_report_needs():
     assert told["drawing"].strip().split(",")[0] in ("compiled", "interpreted")
 
 
-def test_info_of_a_panel():
+def test_info_of_a_panel(run):
     assert "128x32" in run("info", "--panel", "sim://ssd1306?size=128x32").stdout
 
 
-def test_the_installed_command_is_the_same():
+def test_the_installed_command_is_the_same(run):
     script = shutil.which("paneldraw", path=sysconfig.get_path("scripts"))
     assert script, "install the project to test it"
     done = subprocess.run([script, "--version"], capture_output=True, text=True, timeout=60)
@@ -239,7 +239,7 @@ def test_every_command_takes_a_panel_and_explains_itself(command, capsys):
         ["info", "--verbose"],
     ],
 )
-def test_wrong_usage(arguments):
+def test_wrong_usage(run, arguments):
     done = run(*arguments)
     assert_one_line_of_advice(done, 2)
     assert "--help" in done.stderr
@@ -260,13 +260,13 @@ def test_wrong_usage(arguments):
         ["detect", "--panel", "gopher://panel"],
     ],
 )
-def test_mistakes_are_one_line(arguments, tmp_path, monkeypatch):
+def test_mistakes_are_one_line(run, arguments, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     assert_one_line_of_advice(run(*arguments), 1)
 
 
 @pytest.mark.parametrize("content", [b"", b"no picture", b"\x89PNG\r\n\x1a\n" + b"\0" * 40])
-def test_files_that_are_no_pictures(content, tmp_path):
+def test_files_that_are_no_pictures(run, content, tmp_path):
     path = tmp_path / "broken.png"
     path.write_bytes(content)
     done = run("show", path)
@@ -274,14 +274,14 @@ def test_files_that_are_no_pictures(content, tmp_path):
     assert "broken.png" in done.stderr
 
 
-def test_a_picture_that_was_cut_off(picture):
+def test_a_picture_that_was_cut_off(run, picture):
     noise = np.random.default_rng(1).integers(0, 256, (64, 64), np.uint8)
     Image.fromarray(noise).save(picture)
     picture.write_bytes(picture.read_bytes()[:1000])
     assert_one_line_of_advice(run("show", picture), 1)
 
 
-def test_the_environment_names_the_panel():
+def test_the_environment_names_the_panel(run):
     assert_one_line_of_advice(run("text", "hi", PANELDRAW_PANEL="i2c://77"), 1)
     assert len(picture_of(run("text", "hi", PANELDRAW_PANEL="sim://ssd1306?size=128x32").stdout)) == 16
 

@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import pytest
 from far_ends import Board, EmulatedBoard, serial
-from running import assert_one_line_of_advice, run
+from running import assert_one_line_of_advice
 
 from firmware_protocol.device import UNO
 from paneldraw import diagnostics
@@ -22,7 +22,7 @@ def board(tmp_path):
     board.pull_out()
 
 
-def test_info(board):
+def test_info(run, board):
     done = run("firmware", "info", board.path)
     assert done.returncode == 0, done.stderr
     said = dict(line.split(":", 1) for line in done.stdout.splitlines())
@@ -34,7 +34,7 @@ def test_info(board):
     assert said["line"].strip() == "0 damaged frames, 0 overflows, 0 line errors"
 
 
-def test_info_of_a_board_without_a_panel(tmp_path):
+def test_info_of_a_board_without_a_panel(run, tmp_path):
     def nobody(content):
         raise OSError(121, "Remote I/O error")
 
@@ -45,7 +45,7 @@ def test_info_of_a_board_without_a_panel(tmp_path):
     board.pull_out()
 
 
-def test_ping(board):
+def test_ping(run, board):
     done = run("firmware", "ping", board.path, "--count", 7, "--baudrate", 115200)
     assert done.returncode == 0, done.stderr
     found = re.fullmatch(
@@ -56,7 +56,7 @@ def test_ping(board):
     assert least <= average <= most
 
 
-def test_monitor(board):
+def test_monitor(run, board):
     board.device.line_error()
     done = run("firmware", "monitor", board.path, "--seconds", 0.5, "--interval", 0.2)
     assert done.returncode == 0, done.stderr
@@ -67,7 +67,7 @@ def test_monitor(board):
         assert row.split()[2:] == ["0", "0", "1", "0", "0", "none"]
 
 
-def test_the_firmware_on_the_emulated_chip(tmp_path, binaries):
+def test_the_firmware_on_the_emulated_chip(run, tmp_path, binaries):
     board = EmulatedBoard(binaries, tmp_path / "ttyBOARD")
     said = dict(line.split(":", 1) for line in run("firmware", "info", board.path).stdout.splitlines())
     assert said["firmware"].strip() == "paneldraw-atmega328p 1.0"
@@ -98,13 +98,13 @@ def test_monitor_sees_a_restart(board, capsys, monkeypatch):
     assert rows[3].split()[-1] == "none"
 
 
-def test_ports(monkeypatch, capsys):
+def test_ports(run, monkeypatch, capsys):
     assert main(["firmware", "ports"]) == 0
     assert capsys.readouterr().out.splitlines() == (diagnostics.serial_ports() or ["no serial port; plug a board in"])
     assert_one_line_of_advice(run("firmware"), 2)
 
 
-def test_the_port_of_the_environment(board):
+def test_the_port_of_the_environment(run, board):
     done = run("firmware", "ping", "--count", 1, PANELDRAW_PANEL=f"serial://{board.path}?baudrate=250000")
     assert "ttyBOARD at 250000 baud: 1 round trips" in done.stdout
 
@@ -125,7 +125,7 @@ def test_no_port_said(there, said, monkeypatch, capsys):
 
 
 @pytest.mark.parametrize("action", ["info", "monitor", "ping"])
-def test_errors_are_one_line(action, board, tmp_path):
+def test_errors_are_one_line(run, action, board, tmp_path):
     assert_one_line_of_advice(run("firmware", action, tmp_path / "nothing"), 1)
     with serial.Serial(str(board.path), exclusive=True):
         done = run("firmware", action, board.path)
@@ -133,6 +133,6 @@ def test_errors_are_one_line(action, board, tmp_path):
     assert "in use" in done.stderr
 
 
-def test_wrong_usage():
+def test_wrong_usage(run):
     assert_one_line_of_advice(run("firmware", "ping", "/dev/null", "--count", 0), 2)
     assert_one_line_of_advice(run("firmware", "info", "nonsense://1"), 1)

@@ -307,6 +307,8 @@ def test_what_went_wrong_first_is_what_the_script_hears_of():
 # -- Faults
 
 
+#: What the kernel says where a panel does not answer; one code stands for all where time is short.
+NO_ANSWER = [errno.EREMOTEIO, *(pytest.param(code, marks=pytest.mark.thorough) for code in (errno.ENXIO, errno.EIO))]
 PICTURES = [noise(12), spots(noise(12), 13, 40), noise(14)]
 
 
@@ -316,7 +318,7 @@ def messages_of_the_last_two():
     return sum([panel.show(picture).messages for picture in PICTURES][1:])
 
 
-@pytest.mark.parametrize("code", [errno.EREMOTEIO, errno.ENXIO, errno.EIO])
+@pytest.mark.parametrize("code", NO_ANSWER)
 @pytest.mark.parametrize("at_byte", [None, 0, 1, 2, 3, 5])
 @pytest.mark.parametrize("lose_power", [False, True])
 def test_after_a_fault_at_any_message_the_next_show_is_whole(code, at_byte, lose_power):

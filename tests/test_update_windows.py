@@ -139,6 +139,7 @@ def test_one_cell_where_nothing_holds_is_the_cheapest_there_is(window, size):
     assert panel.cost() == cheapest(small, I2C, wanted, state) == size
 
 
+@pytest.mark.thorough
 def test_the_cheapest_is_met_more_often_than_not():
     """How near a fixed walk of small updates comes to it: none is guaranteed."""
     random = np.random.default_rng(4)

@@ -157,7 +157,7 @@ def comparable(replies: bytes) -> list[object]:
     ("trouble", "cause"),
     [(lambda b: b.reset(), "reset pin"), (lambda b: b.reset(power=True), "power on"), (lambda b: b.hang(), "watchdog")],
 )
-@pytest.mark.parametrize("baudrate", [115_200, 500_000])
+@pytest.mark.parametrize("baudrate", [115_200, pytest.param(500_000, marks=pytest.mark.thorough)])
 def test_a_restart_in_the_middle(board: Board, trouble: Callable[[Board], None], cause: str, baudrate: int) -> None:
     port, link = joined(board, baudrate)
     first, second = screens(2)
@@ -277,7 +277,7 @@ def test_firmware_that_is_older(board: Board, monkeypatch: pytest.MonkeyPatch) -
     assert joined(board)[1].device.version == 1
 
 
-@pytest.mark.parametrize("factor", [0.5, 0.9, 2.0])
+@pytest.mark.parametrize("factor", [0.9, *(pytest.param(factor, marks=pytest.mark.thorough) for factor in (0.5, 2.0))])
 def test_a_line_at_another_rate_than_the_host_believes(board: Board, factor: float) -> None:
     """The host's adapter has the wrong clock, or the board the wrong crystal."""
     feed, output = board.feed, board.output

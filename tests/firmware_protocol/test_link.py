@@ -275,7 +275,13 @@ def test_whatever_a_device_says_ends_in_a_link_error_or_well(random: random.Rand
     assert port.now - start < 400
 
 
-@pytest.mark.parametrize("talk", [b"\xff", b"\0", b"\1\0", encode(Status(0, 0)), encode(HelloReply(1)), encode(Ack(0))])
+@pytest.mark.parametrize(
+    "talk",
+    [
+        *(b"\xff", b"\0", encode(HelloReply(1))),
+        *(pytest.param(talk, marks=pytest.mark.thorough) for talk in (b"\1\0", encode(Status(0, 0)), encode(Ack(0)))),
+    ],
+)
 def test_a_port_that_never_stops_talking_takes_no_memory(talk: bytes) -> None:
     class Torrent(Other):
         in_waiting = 1 << 30

@@ -88,6 +88,7 @@ def test_a_pixel_and_nothing_by_the_emulated_chip(board: Board) -> None:
     assert chip.violations == []
 
 
+@pytest.mark.thorough
 def test_scenes_by_the_emulated_chip_in_frames_a_second(binaries: tuple[Path, Path]) -> None:
     seconds = 0.0
     for scene in SCENES.values():

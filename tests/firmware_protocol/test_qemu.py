@@ -110,6 +110,7 @@ def test_qemus_i2c_panel_shows_what_was_sent(machine: Machine, tmp_path: Path) -
         assert link.status().overflows == 0
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("machine", [("lm3s6965", 128, 64)], indirect=True)
 def test_qemus_spi_panel_shows_what_was_sent(machine: Machine, tmp_path: Path) -> None:
     rng = np.random.default_rng(2)
