@@ -55,14 +55,12 @@ def test_the_first_script_saves_the_picture_it_shows(tmp_path, glass):
 def test_the_example_of_a_test_passes_and_can_fail(tmp_path):
     example = pictures.blocks("python", "Testing without a panel")[0]
     assert "    assert" in example
-
-    def outcome(text):
-        (tmp_path / "test_example.py").write_text(text, encoding="utf-8")
-        command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "test_example.py"]
-        return subprocess.run(command, cwd=tmp_path, capture_output=True, text=True).stdout
-
-    assert "1 passed" in outcome(example)
-    assert "1 failed" in outcome(example.replace("63, 63)", "62, 62)"))
+    (tmp_path / "test_example.py").write_text(example, encoding="utf-8")
+    (tmp_path / "test_wrong.py").write_text(example.replace("63, 63)", "62, 62)"), encoding="utf-8")
+    command = [sys.executable, "-m", "pytest", "-q", "-rA", "-p", "no:cacheprovider"]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True).stdout
+    outcomes = re.findall(r"^(PASSED|FAILED) (\w+)\.py", done, re.M)
+    assert outcomes == [("PASSED", "test_example"), ("FAILED", "test_wrong")]
 
 
 def test_every_python_block_is_tested_here():
