@@ -9,10 +9,10 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import plain_loops
-from numpy.typing import NDArray
 from PIL import Image
 
 from paneldraw import Font, Framebuffer, Supersample
@@ -49,7 +49,7 @@ class Figure:
         return fb
 
     def image(self) -> Image.Image:
-        picture = np.full((self.height, self.width, 3), PAPER, np.int32)
+        picture: Any = np.full((self.height, self.width, 3), PAPER, np.int32)
         for color, fb in self._layers:
             cover = fb.pixels[:, :, None].astype(np.int32)
             picture = (picture * (255 - cover) + np.array(color) * cover + 127) // 255
@@ -111,8 +111,13 @@ def arrow(fb: Framebuffer, x1: float, y1: float, x2: float, y2: float, c: int = 
     length = math.hypot(x2 - x1, y2 - y1)
     x, y = (x2 - x1) / length, (y2 - y1) / length
     fb.line(x1, y1, x2 - 8 * x, y2 - 8 * y, c, width=width, cap="butt")
-    fb.poly(0, 0, [(x2, y2), (x2 - 12 * x + 5 * y, y2 - 12 * y - 5 * x), (x2 - 12 * x - 5 * y, y2 - 12 * y + 5 * x)], c,
-            fill=True)
+    fb.poly(
+        0,
+        0,
+        [(x2, y2), (x2 - 12 * x + 5 * y, y2 - 12 * y - 5 * x), (x2 - 12 * x - 5 * y, y2 - 12 * y + 5 * x)],
+        c,
+        fill=True,
+    )
 
 
 def rectangle(line: plain_loops.Line) -> list[Point]:
@@ -149,9 +154,9 @@ def bresenham() -> Image.Image:
     grid.text("p", x1 - 0.85, y2 + 1.4, DIM)
     grid.poly(legend, [(8.52, 0), (14, 0), (14, 2.48), (8.52, 2.48)], 255)
     grid.dot(stay, 9.0, 1.0, 6)
-    grid.text("p < 0: stay", 9.3, 1.0, CYAN, "lm")
+    grid.text("p < 0: stay", 9.4, 1.0, CYAN, "lm")
     grid.dot(move, 9.0, 1.75, 6)
-    grid.text("p >= 0: next row", 9.3, 1.75, ROSE, "lm")
+    grid.text("p >= 0: next row", 9.4, 1.75, ROSE, "lm")
     return figure.image()
 
 
@@ -207,14 +212,14 @@ def thick_line() -> Image.Image:
             if plain_loops.inside(x, y, line):
                 grid.cell(lit, x, y, 110, 1 / 56)
                 grid.dot(within, x, y, 5)
-            elif plain_loops.inside(x, y, (0.8, 1.1, 11.2, 8.9, 5.6)):
+            elif plain_loops.inside(x, y, (1.12, 1.34, 10.88, 8.66, 5.6)):
                 grid.ring(outside, x, y, 4.5)
     arrow(axes, *grid.at(2, 2), *grid.at(10, 8), width=3)
     arrow(axes, *grid.at(2, 2), *grid.at(2 - 0.9, 2 + 1.2), width=3)
-    grid.text("u", 10.3, 7.7, CYAN)
-    grid.text("v", 0.6, 2.9, CYAN)
-    grid.text("u >= 0", 0.85, 0.75, AMBER)
-    grid.text("u <= length", 10.9, 9.5, AMBER)
+    grid.text("u", 10.32, 8.3, CYAN)
+    grid.text("v", 0.7, 3.32, CYAN)
+    grid.text("u >= 0", 0.5, 0, AMBER)
+    grid.text("u <= length", 11.3, 10, AMBER)
     grid.text("v >= -width / 2", 9, 2, AMBER)
     grid.text("v <= width / 2", 3, 8, AMBER)
     return figure.image()
@@ -225,12 +230,10 @@ def thick_line() -> Image.Image:
 
 def subpixels() -> Image.Image:
     """Sub-pixels, 4 x 4 a pixel, their reference points in a line and outside, and what is counted."""
-    line, n = (-0.2, 0.1, 3.4, 1.7, 1.2), 4
+    line, n = (-0.2, 0.1, 3.2, 1.7, 1), 4
     figure = Figure(848, 432)
     grid = Grid(figure, 24, 24, 128, range(4), range(3))
-    area, fine, lines, edges, within, outside = (
-        figure.layer(color) for color in (AMBER, GRID, DIM, AMBER, INK, DIM)
-    )
+    area, fine, lines, edges, within, outside = (figure.layer(color) for color in (AMBER, GRID, DIM, AMBER, INK, DIM))
     grid.poly(area, rectangle(line), 90)
     grid.lines(fine, n)
     grid.lines(lines, width=2)
@@ -248,7 +251,7 @@ def subpixels() -> Image.Image:
         for x in range(4):
             share = plain_loops.supersampled(x, y, line, n)
             levels.cell(lit, x, y, round(255 * share))
-            levels.text(str(round(share * n * n)), x, y, PAPER if share > 0.4 else INK)
+            levels.text(str(round(share * n * n)), x, y, PAPER if share > 0.7 else INK)
     levels.lines(borders)
     figure.text("counts of 16", 568 + 128, 62, INK)
     return figure.image()
@@ -256,12 +259,12 @@ def subpixels() -> Image.Image:
 
 def half_open() -> Image.Image:
     """Two polygons that share an edge, and which of them the pixel centers belong to."""
-    figure = Figure(784, 520)
+    figure = Figure(784, 440)
     grid = Grid(figure, 28, 24, 56, range(13), range(7))
     polygons = [[(1, 1), (4, 1), (8, 5), (1, 5)], [(4, 1), (11, 1), (11, 5), (8, 5)]]
     lines, *areas = (figure.layer(color) for color in (GRID, CYAN, AMBER))
     grid.lines(lines)
-    dots, rings = [figure.layer(color) for color in (CYAN, AMBER)], figure.layer(DIM)
+    dots, rings = [figure.layer(color) for color in (CYAN, AMBER)], figure.layer(INK)
     owners = []
     for corners in polygons:
         fb = Framebuffer(13, 7)
@@ -276,13 +279,272 @@ def half_open() -> Image.Image:
                 if of[y, x]:
                     grid.dot(fb, x, y, 9)
             if not (owners[0][y, x] or owners[1][y, x]):
-                grid.ring(rings, x, y, 5)
+                grid.ring(rings, x, y, 5, 160)
+    return figure.image()
+
+
+def spans() -> Image.Image:
+    """Two rows of a disc: the span of each sub-scanline, and what the spans count up to in each pixel."""
+    n, xc, yc, r = 4, 3.4, 3.3, 3.6
+    figure = Figure(904, 472)
+    grid = Grid(figure, 24, 24, 96, range(8), range(2))
+    area, fine, lines, bars, first, end = (figure.layer(color) for color in (AMBER, GRID, DIM, AMBER, INK, INK))
+    with area.clip(24, 24, 8 * 96, 2 * 96):
+        area.circle(*grid.at(xc, yc), r * 96, 80, fill=True)
+    grid.lines(fine, n)
+    grid.lines(lines, width=2)
+    counts = np.zeros((2, 8), int)
+    figure.text("sub-pixels", 904 - 12, 12, DIM, "rm")
+    for k in range(2 * n):
+        y = (k + 0.5) / n - 0.5
+        inside = [g for g in range(8 * n) if math.hypot((g + 0.5) / n - 0.5 - xc, y - yc) <= r]
+        if not inside:
+            figure.text("none", 904 - 12, grid.at(0, y)[1], DIM, "rm")
+            continue
+        a, b = inside[0], inside[-1] + 1
+        left, right = a / n - 0.5, b / n - 0.5
+        grid.poly(bars, [(left, y - 0.06), (right, y - 0.06), (right, y + 0.06), (left, y + 0.06)], 255)
+        grid.dot(first, left, y, 6)
+        grid.ring(end, right, y, 5.5, 255, 2)
+        figure.text(f"{a}...{b - 1}", 904 - 12, grid.at(0, y)[1], INK, "rm")
+        for g in inside:
+            counts[k // n, g // n] += 1
+    levels = Grid(figure, 24, 256, 96, range(8), range(2))
+    lit, borders = figure.layer(AMBER), figure.layer(GRID)
+    for (y, x), count in np.ndenumerate(counts):
+        levels.cell(lit, x, y, round(255 * count / n**2))
+        levels.text(str(count), x, y, PAPER if count > 0.7 * n**2 else INK)
+    levels.lines(borders)
+    figure.text("count", 904 - 12, levels.at(0, 0)[1], DIM, "rm")
+    figure.text("of 16", 904 - 12, levels.at(0, 0.25)[1], DIM, "rm")
+    return figure.image()
+
+
+# -- The cone
+
+
+def height(x: float, y: float) -> float:
+    """The cone of volume 1 over the circle of radius 1."""
+    return max(0.0, 3 / math.pi * (1 - math.hypot(x, y)))
+
+
+def cone_shade(fb: Framebuffer, x: float, y: float, r: float, low: int, high: int) -> None:
+    """Paint the cone as seen from above, brighter where it is higher."""
+    for k in range(48):
+        fb.circle(x, y, r * (1 - k / 48), low + (high - low) * k // 47, fill=True)
+
+
+class Scene:
+    """A cone that stands on the pixels around (0, 0), seen from the front at an angle."""
+
+    def __init__(self, figure: Figure, x: float, y: float, size: float, theta: float) -> None:
+        self.figure, self.x, self.y, self.size = figure, x, y, size
+        self.along = math.cos(theta), math.sin(theta)
+
+    def at(self, x: float, y: float, z: float = 0.0) -> Point:
+        return self.x + self.size * (x - y) * 0.866, self.y + self.size * ((x + y) * 0.5 - 1.85 * z)
+
+    def plane(self, u: float, v: float) -> Point:
+        """Return x and y of a point in the line's own frame."""
+        a, b = self.along
+        return u * a - v * b, u * b + v * a
+
+    def path(self, fb: Framebuffer, points: Sequence[tuple[float, ...]], c: int = 255, width: float = 1.5) -> None:
+        fb.polyline([self.at(*point) for point in points], c, width=width, cap="butt", join="round")
+
+    def wall(self, points: Sequence[Point]) -> list[Point]:
+        """The outline of a wall that stands over a path on the ground and is as high as the cone."""
+        top = [self.at(*p, height(*p)) for p in points]
+        return [self.at(*points[0]), *top, self.at(*points[-1])]
+
+    def part(self, u0: float, u1: float, v0: float, v1: float) -> None:
+        """Draw the cone's part over u0 ... u1, v0 ... v1."""
+        cover, shade = (Framebuffer(self.figure.width, self.figure.height, depth=8) for _ in range(2))
+        cover.antialias = shade.antialias = Supersample(8)
+        steps = 60
+        us = [u0 + (u1 - u0) * i / steps for i in range(steps + 1)]
+        vs = [v0 + (v1 - v0) * j / steps for j in range(steps + 1)]
+        for v in vs:
+            cover.poly(0, 0, self.wall([self.plane(u, v) for u in us]), 255, fill=True, op="max")
+        for u in us:
+            cover.poly(0, 0, self.wall([self.plane(u, v) for v in vs]), 255, fill=True, op="max")
+        for i in range(steps):
+            for j in range(steps):
+                x, y = self.plane((us[i] + us[i + 1]) / 2, (vs[j] + vs[j + 1]) / 2)
+                r = math.hypot(x, y)
+                bright = 175 + int(80 * (-0.75 * x + 0.25 * y) / max(r, 0.05))
+                corners = [self.plane(us[i + a], vs[j + b]) for a, b in ((0, 0), (1, 0), (1, 1), (0, 1))]
+                quad = [self.at(*c, height(*c)) for c in corners]
+                for fill in False, True:
+                    shade.poly(0, 0, quad, min(255, bright), fill=fill, antialias=None)
+        shade.poly(0, 0, self.wall([self.plane(u, v1) for u in us]), 150, fill=True)
+        shade.poly(0, 0, self.wall([self.plane(u1, v) for v in vs]), 95, fill=True)
+        self.figure.layer(PAPER).blit(cover, 0, 0)
+        mixed = self.figure.layer(AMBER)
+        mixed.pixels[:] = cover.pixels.astype(np.int32) * shade.pixels // 255
+        edges = self.figure.layer(AMBER)
+        for side in ([self.plane(u, v1) for u in us], [self.plane(u1, v) for v in vs]):
+            self.path(edges, [(*p, height(*p)) for p in side if math.hypot(*p) <= 1], 255, 2)
+
+
+def _runs(
+    points: Sequence[tuple[float, ...]], wanted: Callable[[tuple[float, ...]], bool]
+) -> Iterable[list[tuple[float, ...]]]:
+    run: list[tuple[float, ...]] = []
+    for point in points:
+        if wanted(point):
+            run.append(point)
+        elif run:
+            yield run
+            run = []
+    if run:
+        yield run
+
+
+def _cone_scene(figure: Figure, left: float, theta: float, u1: float, v0: float, v1: float) -> None:
+    scene = Scene(figure, left, 206, 84, theta)
+    ground, pixel, road, back, glass = (figure.layer(color) for color in (GRID, DIM, AMBER, DIM, CYAN))
+    for k in range(4):
+        scene.path(ground, [(-1.5, k - 1.5), (1.5, k - 1.5)])
+        scene.path(ground, [(k - 1.5, -1.5), (k - 1.5, 1.5)])
+    scene.path(pixel, [(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5), (-0.5, -0.5)], 255, 2)
+    reach = 1.75
+    corners = [scene.plane(*c) for c in ((-reach, v0), (min(u1, reach), v0), (min(u1, reach), v1), (-reach, v1))]
+    road.poly(0, 0, [scene.at(*c) for c in corners], 70, fill=True)
+    rim = [(math.cos(math.radians(a)), math.sin(math.radians(a))) for a in range(0, 361, 3)]
+    apex = scene.at(0, 0, height(0, 0))
+    for i in range(0, 120, 2):
+        corners = [rim[i], rim[(i + 20) % 120], rim[(i + 40) % 120]]
+        glass.poly(0, 0, [apex, *(scene.at(*c) for c in corners)], 28, fill=True, op="max")
+    paths: list[list[tuple[float, ...]]] = []
+    for r in (1, 0.75, 0.5, 0.25):
+        paths.append([(r * x, r * y, height(r * x, r * y)) for x, y in rim])
+    for x, y in rim[:-1:10]:
+        paths.append([(t / 20 * x, t / 20 * y, height(t / 20 * x, t / 20 * y)) for t in range(21)])
+    for path in paths:
+        scene.path(back, path, 150, 1.2)
+
+    def in_front(point: tuple[float, ...]) -> bool:
+        x, y = point[:2]
+        a, b = scene.along
+        return b * -x + a * y >= v1 or a * x + b * y >= u1
+
+    scene.part(-1.0, min(u1, 1.0), v0, v1)
+    front = figure.layer(DIM)
+    for path in paths:
+        for run in _runs(path, in_front):
+            if len(run) > 1:
+                scene.path(front, run, 150, 1.2)
+
+
+def cone() -> Image.Image:
+    """The cone over a pixel, and its part above a line: in the line's middle, and at its end."""
+    figure = Figure(904, 396)
+    theta = math.atan2(2, 7)
+    v0, v1 = -0.35, 0.65
+    for left, u1, title in ((226, 9.0, "in its middle"), (678, 0.3, "at its end")):
+        _cone_scene(figure, left, theta, u1, v0, v1)
+        u, v = u1, -(v0 + v1) / 2
+        a, b = math.cos(theta), math.sin(theta)
+        line = ((u - 20) * a + v * b, (u - 20) * b - v * a, u * a + v * b, u * b - v * a, v1 - v0)
+        share = plain_loops.cone_filtered(0, 0, line)
+        figure.text(f"{title}: {share:.2f}", left, 370)
+    return figure.image()
+
+
+def volume(u: float, v: float) -> float:
+    """C(u, v), added up on a fine grid."""
+    middles = (np.arange(1000) + 0.5) / 500 - 1
+    heights = np.maximum(0, 3 / math.pi * (1 - np.hypot(middles[:, None], middles)))
+    return float(heights[np.ix_(middles < v, middles < u)].sum()) / 500**2
+
+
+def look_ups() -> Image.Image:
+    """The volume above a rectangle as four quadrants' volumes, added and taken away."""
+    figure = Figure(904, 264)
+    u0, u1, v0, v1 = -0.44, 0.68, -0.3, 0.56
+    r, y = 68, 134
+    quadrants = [("C(u1,v1)", u1, v1), ("C(u0,v1)", u0, v1), ("C(u1,v0)", u1, v0), ("C(u0,v0)", u0, v0)]
+    circles, whole, part, box, dot = (figure.layer(color) for color in (GRID, DIM, AMBER, INK, INK))
+    total = 0.0
+    for k in range(5):
+        x = 84 + 184 * k
+        cone_shade(whole, x, y, r, 30, 130)
+        circles.circle(x, y, r, 255, width=2)
+        if k < 4:
+            name, u, v = quadrants[k]
+            window = (x - r - 2, y - r - 2, round(r + 2 + r * u), round(r + 2 + r * v))
+        else:
+            name, u, v = "volume", 0.0, 0.0
+            window = (round(x + r * u0), round(y + r * v0), round(r * (u1 - u0)), round(r * (v1 - v0)))
+        with part.clip(*window):
+            cone_shade(part, x, y, r, 110, 255)
+        corners = [(u0, v0), (u1, v0), (u1, v1), (u0, v1)]
+        box.poly(0, 0, [(x + r * a, y + r * b) for a, b in corners], 255, width=1.5)
+        figure.text(name, x, 32, AMBER)
+        if k < 4:
+            dot.circle(x + r * u, y + r * v, 5, fill=True)
+            sign = (1, -1, -1, 1)[k]
+            share = volume(u, v)
+            total += sign * share
+        else:
+            share = total
+        figure.text(f"{share:.3f}", x, 236)
+        if k:
+            figure.text("--+="[k - 1], x - 92, y, INK, font=LARGE)
+    return figure.image()
+
+
+def weights() -> Image.Image:
+    """A sub-scanline through a pixel's circle of influence, and the table by which a span's ends are weighed."""
+    figure = Figure(816, 600)
+    size, a, b, y = 132.0, -0.55, 0.4, 0.3125
+    grid = Grid(figure, 24, 24, size, range(-1, 2), range(-1, 2))
+    shade, fine, lines, ring, bar, first, end, guides = (
+        figure.layer(color) for color in (DIM, GRID, DIM, INK, AMBER, INK, INK, DIM)
+    )
+    cone_shade(shade, *grid.at(0, 0), size, 25, 120)
+    for k in range(25):
+        fine.line(*grid.at(-1.5, -1.5 + k / 8), *grid.at(1.5, -1.5 + k / 8), 200)
+    grid.lines(lines, width=2)
+    grid.ring(ring, 0, 0, size, 255, 2)
+    grid.poly(bar, [(a, y - 0.05), (b, y - 0.05), (b, y + 0.05), (a, y + 0.05)], 255)
+    grid.dot(first, a, y, 6)
+    grid.ring(end, b, y, 5.5, 255, 2)
+    chord = np.array([height((k + 0.5) / 256, y) for k in range(-384, 384)]) / 256
+    left = np.concatenate([[0], chord.cumsum()])
+    base, tall = 572, 124
+    curve = [(grid.at(-1.5 + k / 256, 0)[0], base - tall * left[k] / left[-1]) for k in range(0, 769, 8)]
+    table, axis = figure.layer(CYAN), figure.layer(GRID)
+    axis.line(grid.at(-1.5, 0)[0], base, grid.at(1.5, 0)[0], base, width=2)
+    table.polyline(curve, width=3, join="round")
+    marks = []
+    for x in (a, b):
+        px, py = grid.at(x, y)
+        share = left[round((x + 1.5) * 256)] / left[-1]
+        marks.append(base - tall * share)
+        guides.line(px, py + 8, px, marks[-1], width=1.5, dash=(6, 5), cap="butt")
+        guides.line(px, marks[-1], 466, marks[-1], width=1.5, dash=(6, 5), cap="butt")
+        figure.layer(CYAN).circle(px, marks[-1], 6, fill=True)
+    bracket = figure.layer(AMBER)
+    bracket.line(478, marks[0], 478, marks[1], width=5, cap="butt")
+    figure.text("W(b) - W(a)", 494, (marks[0] + marks[1]) / 2, AMBER, "lm")
+    figure.text("W(b)", 494, marks[1], CYAN, "lm")
+    figure.text("W(a)", 494, marks[0], CYAN, "lm")
+    tx = 452
+    figure.text("the pixel's circle,", tx, 60, INK, "lm")
+    figure.text("the cone from above", tx, 84, INK, "lm")
+    py = grid.at(0, y)[1]
+    figure.text("a span a...b", tx, py - 12, AMBER, "lm")
+    figure.text("of a sub-scanline", tx, py + 12, AMBER, "lm")
+    figure.text("its table W(x):", tx, 384, CYAN, "lm")
+    figure.text("the volume left of x", tx, 408, CYAN, "lm")
     return figure.image()
 
 
 FIGURES: dict[str, Callable[[], Image.Image]] = {
-    "bresenham": bresenham, "circle": circle, "thick_line": thick_line,
-    "subpixels": subpixels, "half_open": half_open,
+    draw.__name__: draw
+    for draw in (bresenham, circle, thick_line, half_open, subpixels, spans, cone, look_ups, weights)
 }
 
 
