@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Sequence
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -16,8 +15,6 @@ import plain_loops
 from PIL import Image
 
 from paneldraw import Font, Framebuffer, Supersample
-
-FOLDER = Path(__file__).with_name("figures")
 
 Color = tuple[int, int, int]
 Point = tuple[float, float]
@@ -219,7 +216,7 @@ def thick_line() -> Image.Image:
     grid.text("u", 10.32, 8.3, CYAN)
     grid.text("v", 0.7, 3.32, CYAN)
     grid.text("u >= 0", 0.5, 0, AMBER)
-    grid.text("u <= length", 11.3, 10, AMBER)
+    grid.text("u <= length", 11.15, 10, AMBER)
     grid.text("v >= -width / 2", 9, 2, AMBER)
     grid.text("v <= width / 2", 3, 8, AMBER)
     return figure.image()
@@ -283,40 +280,49 @@ def half_open() -> Image.Image:
     return figure.image()
 
 
+N = 4
+DISC = 3.4, 3.3, 3.6
+
+
+def disc_spans() -> list[tuple[int, int, int]]:
+    """Return the sub-scanlines of two rows of a disc, each with its span of sub-pixels; an empty one begins at 0."""
+    x, y, r = DISC
+    found = []
+    for k in range(2 * N):
+        held = [g for g in range(8 * N) if math.hypot((g + 0.5) / N - 0.5 - x, (k + 0.5) / N - 0.5 - y) <= r]
+        found.append((k, held[0], held[-1] + 1) if held else (k, 0, 0))
+    return found
+
+
 def spans() -> Image.Image:
     """Two rows of a disc: the span of each sub-scanline, and what the spans count up to in each pixel."""
-    n, xc, yc, r = 4, 3.4, 3.3, 3.6
     figure = Figure(904, 472)
     grid = Grid(figure, 24, 24, 96, range(8), range(2))
     area, fine, lines, bars, first, end = (figure.layer(color) for color in (AMBER, GRID, DIM, AMBER, INK, INK))
     with area.clip(24, 24, 8 * 96, 2 * 96):
-        area.circle(*grid.at(xc, yc), r * 96, 80, fill=True)
-    grid.lines(fine, n)
+        area.circle(*grid.at(*DISC[:2]), DISC[2] * 96, 80, fill=True)
+    grid.lines(fine, N)
     grid.lines(lines, width=2)
-    counts = np.zeros((2, 8), int)
-    figure.text("sub-pixels", 904 - 12, 12, DIM, "rm")
-    for k in range(2 * n):
-        y = (k + 0.5) / n - 0.5
-        inside = [g for g in range(8 * n) if math.hypot((g + 0.5) / n - 0.5 - xc, y - yc) <= r]
-        if not inside:
-            figure.text("none", 904 - 12, grid.at(0, y)[1], DIM, "rm")
+    figure.text("sub-pixels", 892, 12, DIM, "rm")
+    for k, a, b in disc_spans():
+        left, y, right = a / N - 0.5, (k + 0.5) / N - 0.5, b / N - 0.5
+        if a == b:
+            figure.text("none", 892, grid.at(0, y)[1], DIM, "rm")
             continue
-        a, b = inside[0], inside[-1] + 1
-        left, right = a / n - 0.5, b / n - 0.5
         grid.poly(bars, [(left, y - 0.06), (right, y - 0.06), (right, y + 0.06), (left, y + 0.06)], 255)
         grid.dot(first, left, y, 6)
         grid.ring(end, right, y, 5.5, 255, 2)
-        figure.text(f"{a}...{b - 1}", 904 - 12, grid.at(0, y)[1], INK, "rm")
-        for g in inside:
-            counts[k // n, g // n] += 1
-    levels = Grid(figure, 24, 256, 96, range(8), range(2))
+        figure.text(f"{a}...{b - 1}", 892, grid.at(0, y)[1], INK, "rm")
+    cells = Grid(figure, 24, 256, 96, range(8), range(2))
     lit, borders = figure.layer(AMBER), figure.layer(GRID)
-    for (y, x), count in np.ndenumerate(counts):
-        levels.cell(lit, x, y, round(255 * count / n**2))
-        levels.text(str(count), x, y, PAPER if count > 0.7 * n**2 else INK)
-    levels.lines(borders)
-    figure.text("count", 904 - 12, levels.at(0, 0)[1], DIM, "rm")
-    figure.text("of 16", 904 - 12, levels.at(0, 0.25)[1], DIM, "rm")
+    for y in cells.rows:
+        rows = [(a, b) for k, a, b in disc_spans() if k // N == y]
+        for x, count in enumerate(plain_loops.counted(rows, N, 8)):
+            cells.cell(lit, x, y, round(255 * count / N**2))
+            cells.text(str(count), x, y, PAPER if count > 0.7 * N**2 else INK)
+    cells.lines(borders)
+    figure.text("count", 892, cells.at(0, 0)[1] - 12, DIM, "rm")
+    figure.text("of 16", 892, cells.at(0, 0)[1] + 12, DIM, "rm")
     return figure.image()
 
 
@@ -542,14 +548,7 @@ def weights() -> Image.Image:
     return figure.image()
 
 
-FIGURES: dict[str, Callable[[], Image.Image]] = {
-    draw.__name__: draw
-    for draw in (bresenham, circle, thick_line, half_open, subpixels, spans, cone, look_ups, weights)
-}
-
-
-if __name__ == "__main__":
-    import sys
-
-    for name in sys.argv[1:] or FIGURES:
-        FIGURES[name]().save(FOLDER / f"{name}.png", optimize=True)
+def pictures() -> dict[str, Callable[[], Image.Image]]:
+    """What draws each figure, by its file name."""
+    drawn = (bresenham, circle, thick_line, half_open, subpixels, spans, cone, look_ups, weights)
+    return {f"figures/{draw.__name__}.png": draw for draw in drawn}

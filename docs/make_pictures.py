@@ -1,4 +1,4 @@
-"""Draws the pictures of the README and of gallery.md, and refreshes what algorithms.md has from the code.
+"""Draws the pictures of the README and of all pages, and refreshes what algorithms.md has from the code.
 
 ``python docs/make_pictures.py``
 """
@@ -15,6 +15,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import figures
 import gallery
 import numpy as np
 import worked_examples
@@ -62,7 +63,12 @@ def glass_of(script: str) -> Any:
         return np.load(Path(folder, "glass.npy"))
 
 
-PICTURES: dict[str, Callable[[], Image.Image]] = {"lines.png": lines, "hello.png": hello, **gallery.pictures()}
+PICTURES: dict[str, Callable[[], Image.Image]] = {
+    "lines.png": lines,
+    "hello.png": hello,
+    **gallery.pictures(),
+    **figures.pictures(),
+}
 
 
 def main() -> None:

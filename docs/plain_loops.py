@@ -1,4 +1,4 @@
-"""The plain loops that algorithms.md begins with: the textbook's algorithms, as short as they can be said.
+"""The plain loops that algorithms.md begins with: the textbook's algorithms, said as shortly as they can be.
 
 They need nothing of paneldraw, and paneldraw uses none of them; tests hold its drawing calls to them.
 ``python docs/plain_loops.py`` draws a line with each.
@@ -6,11 +6,12 @@ They need nothing of paneldraw, and paneldraw uses none of them; tests hold its 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from fractions import Fraction
 from math import ceil, floor, hypot, pi
 
 Pixel = tuple[int, int]
+Loop = Callable[[int, int, int, int], Iterator[Pixel]]
 Line = tuple[float, float, float, float, float]
 
 
@@ -35,15 +36,13 @@ def bresenham(x1: int, y1: int, x2: int, y2: int) -> Iterator[Pixel]:
             p += 2 * dy - 2 * dx
 
 
-def in_any_direction(
-    loop: Callable[[int, int, int, int], Iterator[Pixel]], x1: int, y1: int, x2: int, y2: int
-) -> list[Pixel]:
+def any_direction(loop: Loop, x1: int, y1: int, x2: int, y2: int) -> list[Pixel]:
     if abs(y2 - y1) > abs(x2 - x1):
-        return [(x, y) for y, x in in_any_direction(loop, y1, x1, y2, x2)]
+        return [(x, y) for y, x in any_direction(loop, y1, x1, y2, x2)]
     if x1 > x2:
-        return in_any_direction(loop, x2, y2, x1, y1)
+        return any_direction(loop, x2, y2, x1, y1)
     if y1 > y2:
-        return [(x, -y) for x, y in in_any_direction(loop, x1, -y1, x2, -y2)]
+        return [(x, -y) for x, y in any_direction(loop, x1, -y1, x2, -y2)]
     return list(loop(x1, y1, x2, y2))
 
 
@@ -109,3 +108,46 @@ def polygon(corners: list[Pixel]) -> list[Pixel]:
         for left, right in zip(crossings[::2], crossings[1::2], strict=True):
             pixels += [(x, y) for x in range(ceil(left), ceil(right))]
     return pixels
+
+
+def counted(spans: Iterable[tuple[int, int]], n: int, columns: int) -> list[int]:
+    changes = [0] * (columns + 2)
+    for first, end in spans:
+        for g, sign in (first, 1), (end, -1):
+            x, part = divmod(g, n)
+            changes[x] += sign * (n - part)
+            changes[x + 1] += sign * part
+    counts = []
+    count = 0
+    for change in changes[:columns]:
+        count += change
+        counts.append(count)
+    return counts
+
+
+def show(title: str, level: Callable[[int, int], float]) -> None:
+    """Print 16 x 10 pixels, whose levels are from 0 to 1."""
+    print(title)
+    for y in range(10):
+        print("  " + "".join(".:-=+*%#@"[round(8 * level(x, y))] for x in range(16)))
+
+
+def lit(pixels: Iterable[Pixel]) -> Callable[[int, int], float]:
+    """Return the level of a pixel, 1 or 0."""
+    pixels = set(pixels)
+    return lambda x, y: float((x, y) in pixels)
+
+
+def main() -> None:
+    line = (2.0, 1.0, 13.0, 8.0, 3.0)
+    show("DDA", lit(dda(2, 1, 13, 8)))
+    show("Bresenham's line", lit(bresenham(2, 1, 13, 8)))
+    show("Midpoint circle", lit(circle(7, 4, 4)))
+    show("Thick line", lit(thick_line(line, 16, 10)))
+    show("Polygon", lit(polygon([(2, 1), (13, 4), (6, 9)])))
+    show("Supersampling", lambda x, y: supersampled(x, y, line, 4))
+    show("Cone filter", lambda x, y: cone_filtered(x, y, line, 16))
+
+
+if __name__ == "__main__":
+    main()

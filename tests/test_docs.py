@@ -2,16 +2,23 @@
 
 from __future__ import annotations
 
+import itertools
+import math
+import random
 import re
+import subprocess
+import sys
 from pathlib import Path
 
+import figures
 import gallery
 import numpy as np
+import plain_loops as plain
 import pytest
 import worked_examples as examples
 from PIL import Image
 
-from paneldraw import Framebuffer
+from paneldraw import ConeFilter, Framebuffer, Supersample
 from paneldraw.raster.strokes import CAPS, JOINS
 from paneldraw.raster.surface import OPS
 
@@ -74,3 +81,126 @@ def test_the_excerpts_and_tables_are_what_the_code_has():
     assert examples.page(page) == page, "run docs/make_pictures.py"
     assert page.count("```python") == len(examples._EXCERPT.findall(page)), "an excerpt follows no link to its function"
     assert page.count("<!-- end -->") == len(examples._TABLE.findall(page)) > 8
+
+
+# -- The figures
+
+
+@pytest.mark.parametrize(("name", "draw"), figures.pictures().items())
+def test_a_figure_is_what_its_script_draws(name, draw):
+    with Image.open(DOCS / name) as file:
+        shown = np.asarray(file.convert("RGB"))
+    assert np.array_equal(np.asarray(draw()), shown), f"{name} is not what figures.py draws; run docs/make_pictures.py"
+
+
+def test_each_figure_is_shown_once_with_its_description_and_there_are_no_others():
+    shown = re.findall(r"^!\[(.*?)\]\((figures/.*?)\)$", examples.PAGE.read_text(encoding="utf-8"), re.M)
+    assert sorted(name for _, name in shown) == sorted(figures.pictures())
+    assert sorted(figures.pictures()) == sorted(f"figures/{file.name}" for file in (DOCS / "figures").iterdir())
+    assert all(len(description) > 40 for description, _ in shown)
+
+
+# -- The plain loops: what the textbook draws is what the drawing calls draw
+
+
+def lit(fb):
+    return {(int(x), int(y)) for y, x in np.argwhere(fb.pixels)}
+
+
+ENDS = [ends for ends in itertools.product(range(10), repeat=4) if ends[:2] != ends[2:]]
+
+
+def test_the_plain_bresenham_draws_the_pixels_of_line():
+    for ends in ENDS:
+        fb = Framebuffer(10, 10)
+        fb.line(*ends)
+        assert lit(fb) == set(plain.any_direction(plain.bresenham, *ends)), ends
+
+
+def test_the_plain_dda_draws_the_pixels_of_line_but_for_ties():
+    ties = 0
+    for ends in ENDS:
+        fb = Framebuffer(10, 10)
+        fb.line(*ends, algorithm="dda")
+        loop = plain.any_direction(plain.dda, *ends)
+        dx, dy = sorted((abs(ends[2] - ends[0]), abs(ends[3] - ends[1])), reverse=True)
+        halfway = {k for k in range(dx + 1) if 2 * k * dy % (2 * dx) == dx}
+        # The loop runs from the left or from the top, and step k is k pixels from there.
+        for k, (theirs, ours) in enumerate(zip(loop, sorted(lit(fb), key=_along(ends)), strict=True)):
+            assert theirs == ours or (k in halfway and math.dist(theirs, ours) == 1), ends
+        ties += len(halfway)
+    assert ties > 100
+
+
+def _along(ends):
+    x1, y1, x2, y2 = ends
+    return (lambda pixel: pixel[1]) if abs(y2 - y1) > abs(x2 - x1) else (lambda pixel: pixel[0])
+
+
+def test_the_plain_circle_draws_the_pixels_of_circle():
+    for r in range(60):
+        fb = Framebuffer(121, 121)
+        fb.circle(60, 60, r)
+        assert lit(fb) == plain.circle(60, 60, r), r
+
+
+def _lines(seed, count, columns, rows):
+    """Thick lines, with points on a lattice of quarters, so that many pixel centers lie on their edges."""
+    rng = random.Random(seed)
+    for _ in range(count):
+        x1, y1, x2, y2 = (rng.randrange(4 * size) / 4 for size in (columns, rows, columns, rows))
+        if (x1, y1) != (x2, y2):
+            yield x1, y1, x2, y2, rng.choice([1, 1.5, 2, 3, 5])
+
+
+def test_the_plain_thick_line_draws_the_pixels_of_line():
+    for line in _lines(1, 400, 16, 12):
+        fb = Framebuffer(16, 12)
+        fb.line(*line[:4], width=line[4], cap="butt", antialias=Supersample(1))
+        assert lit(fb) == set(plain.thick_line(line, 16, 12)), line
+
+
+@pytest.mark.parametrize("n", [2, 3, 4])
+def test_the_plain_supersampling_counts_what_line_paints(n):
+    for line in _lines(n, 60, 8, 6):
+        fb = Framebuffer(8, 6, depth=8)
+        fb.line(*line[:4], width=line[4], cap="butt", antialias=Supersample(n))
+        shares = [[plain.supersampled(x, y, line, n) for x in range(8)] for y in range(6)]
+        assert np.array_equal(fb.pixels, np.floor(255 * np.array(shares) + 0.5)), line
+
+
+def test_the_plain_cone_has_the_volume_that_line_paints():
+    assert plain.cone_filtered(0, 0, (-9, 0, 9, 0, 9)) == pytest.approx(1, abs=1e-4)
+    for line in _lines(5, 12, 6, 4):
+        fb = Framebuffer(6, 4, depth=8)
+        fb.line(*line[:4], width=line[4], cap="butt", antialias=ConeFilter())
+        volumes = [[plain.cone_filtered(x, y, line, 32) for x in range(6)] for y in range(4)]
+        # The painted level is within 2 of the volume and rounded; so coarse a sum of the volume may be another 1 off.
+        assert np.abs(fb.pixels - 255 * np.array(volumes)).max() <= 3.5, line
+
+
+def test_the_plain_polygon_draws_the_pixels_of_poly():
+    rng = random.Random(7)
+    for _ in range(400):
+        corners = [(rng.randrange(16), rng.randrange(12)) for _ in range(rng.randrange(3, 8))]
+        area = sum(x1 * y2 - x2 * y1 for (x1, y1), (x2, y2) in zip(corners, corners[1:] + corners[:1], strict=True))
+        if area:
+            fb = Framebuffer(16, 12)
+            fb.poly(0, 0, corners, fill=True, antialias=Supersample(1))
+            assert lit(fb) == set(plain.polygon(corners)), corners
+
+
+@pytest.mark.parametrize("n", [1, 2, 4, 7])
+def test_the_plain_counting_counts_sub_pixels(n):
+    rng = random.Random(n)
+    for _ in range(200):
+        spans = [sorted(rng.randrange(8 * n + 1) for _ in range(2)) for _ in range(n)]
+        counts = [sum(g // n == x for a, b in spans for g in range(a, b)) for x in range(8)]
+        assert plain.counted(spans, n, 8) == counts
+
+
+def test_the_plain_loops_run_on_their_own():
+    script = [sys.executable, "-S", str(DOCS / "plain_loops.py")]
+    out = subprocess.run(script, check=True, capture_output=True, text=True).stdout
+    assert out.count("\n") == 7 * 11
+    assert out.startswith("DDA\n  ................\n  ..@.............\n  ...@@...........\n")
