@@ -367,6 +367,8 @@ class Scene:
         """Draw the cone's part over u0 ... u1, v0 ... v1."""
         cover, shade = (Framebuffer(self.figure.width, self.figure.height, depth=8) for _ in range(2))
         cover.antialias = shade.antialias = Supersample(8)
+        # Beyond the shape's border its shade goes on.
+        shade.fill(130)
         steps = 60
         us = [u0 + (u1 - u0) * i / steps for i in range(steps + 1)]
         vs = [v0 + (v1 - v0) * j / steps for j in range(steps + 1)]
