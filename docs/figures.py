@@ -461,7 +461,7 @@ def cone() -> Image.Image:
 
 
 def volume(u: float, v: float) -> float:
-    """C(u, v), added up on a fine grid."""
+    """The cone's volume over the quadrant that ends at (u, v), added up on a fine grid."""
     middles = (np.arange(1000) + 0.5) / 500 - 1
     heights = np.maximum(0, 3 / math.pi * (1 - np.hypot(middles[:, None], middles)))
     return float(heights[np.ix_(middles < v, middles < u)].sum()) / 500**2
