@@ -31,7 +31,7 @@ MODULES = (
     "paneldraw.framebuffer.shapes",
     "paneldraw.framebuffer.framebuffer",
     "paneldraw.controllers.packing",
-    "paneldraw.update.paths",
+    "paneldraw.update.order",
     "paneldraw.update.messages",
     "paneldraw.update.windows",
     "paneldraw.update.planner",

@@ -1,17 +1,44 @@
-# cython: language_level=3, boundscheck=False, wraparound=False, initializedcheck=False, cdivision=True
+# cython: language_level=3, boundscheck=False, wraparound=False, cdivision=True, infer_types=True
 """Levels, one byte a pixel, to the bytes that a panel's RAM takes. One function a packing, none a chip."""
 
 from __future__ import annotations
 
+from typing import Any
+
 import cython
 import numpy as np
+from cython.cimports.cpython.buffer import PyBUF_STRIDES, PyBuffer_Release, PyObject_GetBuffer
+
+#: A rectangle of bytes in memory: that of row y and column x is ``start[y * down + x * across]``.
+Rectangle = cython.struct(
+    start=cython.p_uchar,
+    height=cython.Py_ssize_t,
+    width=cython.Py_ssize_t,
+    down=cython.Py_ssize_t,
+    across=cython.Py_ssize_t,
+)
 
 
-def pack_pages(
-    levels: cython.const[cython.uchar][:, :],  # type: ignore[valid-type]
-    max_level: cython.int,
-    packed: cython.uchar[:, ::1],
-) -> None:
+@cython.cfunc
+def _rectangle(array: object) -> Rectangle:  # type: ignore[valid-type]
+    """Where the bytes of an array are, which the caller holds."""
+    if cython.compiled:
+        found: Rectangle  # type: ignore[valid-type]
+        view: Py_buffer  # type: ignore[name-defined]  # noqa: F821
+        PyObject_GetBuffer(array, cython.address(view), PyBUF_STRIDES)
+        found.start = cython.cast(cython.p_uchar, view.buf)
+        found.height, found.width = view.shape[0], view.shape[1]
+        found.down, found.across = view.strides[0], view.strides[1]
+        PyBuffer_Release(cython.address(view))
+    else:
+        found = Rectangle()
+        found.start = np.ascontiguousarray(array).reshape(-1).data
+        found.height, found.width = array.shape
+        found.down, found.across = found.width, 1
+    return found
+
+
+def pack_pages(levels: Any, max_level: cython.int, packed: Any) -> None:
     """Pack rows of levels into pages: a byte is eight rows of a column, the topmost in the lowest bit.
 
     Parameters
@@ -23,51 +50,33 @@ def pack_pages(
     packed : (height / 8, width) uint8, contiguous
         Where the pages go, from the top.
     """
-    width: cython.Py_ssize_t = packed.shape[1]
-    y: cython.Py_ssize_t
-    for y in range(8 * packed.shape[0]):
-        if cython.compiled:
-            _pack_row(
-                cython.cast(cython.p_uchar, cython.address(levels[y, 0])),
-                levels.strides[1],
-                width,
-                max_level >> 1,
-                y & 7,
-                cython.address(packed[y >> 3, 0]),
-            )
-        else:
-            _pack_row(levels[y], 1, width, max_level >> 1, y & 7, packed[y >> 3])
+    pages = _rectangle(packed)
+    pixels = _rectangle(levels)
+    threshold: cython.uchar = max_level >> 1
+    for y in range(8 * pages.height):
+        _pack_row(pixels, y, threshold, pages)
 
 
 @cython.cfunc
 @cython.exceptval(check=False)
-def _pack_row(
-    source: cython.p_uchar,
-    step: cython.Py_ssize_t,
-    width: cython.Py_ssize_t,
-    threshold: cython.uchar,
-    row: cython.int,
-    target: cython.p_uchar,
-) -> cython.void:
-    """Put one row into its page; row 0 clears the others."""
-    bit: cython.uchar = 1 << row
-    x: cython.Py_ssize_t
-    if row == 0:
-        for x in range(width):
-            target[x] = 0
+def _pack_row(pixels: Rectangle, y: cython.Py_ssize_t, threshold: cython.uchar, pages: Rectangle) -> cython.void:  # type: ignore[valid-type]
+    """Put one row into its page; the first of a page clears the others."""
+    bit: cython.uchar = 1 << (y & 7)
+    levels, packed, step = pixels.start, pages.start, pixels.across
+    row: cython.Py_ssize_t = y * pixels.down
+    page: cython.Py_ssize_t = (y >> 3) * pages.width
+    if y & 7 == 0:
+        for x in range(pages.width):
+            packed[page + x] = 0
     if step == 1:  # the same loop, apart: compilers make vectors of it
-        for x in range(width):
-            target[x] |= bit if source[x] > threshold else 0
+        for x in range(pages.width):
+            packed[page + x] |= bit if levels[row + x] > threshold else 0
     else:
-        for x in range(width):
-            target[x] |= bit if source[x * step] > threshold else 0
+        for x in range(pages.width):
+            packed[page + x] |= bit if levels[row + x * step] > threshold else 0
 
 
-def pack_nibbles(
-    levels: cython.const[cython.uchar][:, :],  # type: ignore[valid-type]
-    max_level: cython.int,
-    packed: cython.uchar[:, ::1],
-) -> None:
+def pack_nibbles(levels: Any, max_level: cython.int, packed: Any) -> None:
     """Pack rows of levels two pixels a byte, the left one in the upper half.
 
     Parameters
@@ -79,16 +88,16 @@ def pack_nibbles(
     packed : (height, width / 2) uint8, contiguous
         Where the rows go, from the top.
     """
-    nibbles: cython.const[cython.uchar][::1] = _NIBBLES[max_level]  # type: ignore[valid-type]
-    y: cython.Py_ssize_t
-    x: cython.Py_ssize_t
-    for y in range(packed.shape[0]):
-        for x in range(packed.shape[1]):
-            packed[y, x] = nibbles[levels[y, 2 * x]] << 4 | nibbles[levels[y, 2 * x + 1]]
+    pixels, pairs, nibbles = _rectangle(levels), _rectangle(packed), _rectangle(_NIBBLES[max_level]).start
+    for y in range(pairs.height):
+        left: cython.Py_ssize_t = y * pixels.down
+        for at in range(y * pairs.width, (y + 1) * pairs.width):
+            pairs.start[at] = nibbles[pixels.start[left]] << 4 | nibbles[pixels.start[left + pixels.across]]
+            left += 2 * pixels.across
 
 
 _NIBBLES = {
-    highest: ((30 * np.arange(256) + highest) // (2 * highest)).clip(max=15).astype(np.uint8)
+    highest: ((30 * np.arange(256) + highest) // (2 * highest)).clip(max=15).astype(np.uint8)[np.newaxis]
     for highest in (1, 3, 15, 255)
 }
 """What a level becomes, by the highest level that there is."""

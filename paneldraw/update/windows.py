@@ -1,362 +1,295 @@
-# cython: language_level=3, boundscheck=False, wraparound=False, initializedcheck=False, cdivision=True
+# cython: language_level=3, boundscheck=False, wraparound=False, cdivision=True, infer_types=True, auto_pickle=False
 """Updates as rectangles: which ones, in which order, and what they cost.
 
-A box is a rectangle of cells (left, right, top, bottom), a piece a stretch of them (row, left, right); ends are
-exclusive.
+A box is a rectangle of cells, a piece a stretch of them in one row; right and bottom are exclusive.
 """
 
 from __future__ import annotations
 
 import cython
-import numpy as np
+from cython.cimports.paneldraw.update.messages import HORIZONTAL, VERTICAL
 
-from paneldraw.update.messages import HORIZONTAL, VERTICAL
+if not cython.compiled:
+    from types import SimpleNamespace as Box
 
-if cython.compiled:
-    from cython.cimports.paneldraw.update.messages import Writer
-else:
-    from paneldraw.update.messages import Writer
+    Piece = Box
 
 MOST = 128
 """So many boxes are grown; what would be one more joins another."""
-WORTHWHILE = 24
+WORTHWHILE = cython.declare(cython.int, 24)
 """More boxes than that are not tried where there is a page pointer."""
-AHEAD = 24
+AHEAD = cython.declare(cython.int, 24)
 """So many boxes are looked at for the one to write next."""
-TURNED = 4
+TURNED = cython.declare(cython.int, 4)
 """For up to so many boxes both modes of windows are tried."""
-
-_MOST = cython.declare(cython.int, MOST)
-_HORIZONTAL = cython.declare(cython.int, HORIZONTAL)
-_VERTICAL = cython.declare(cython.int, VERTICAL)
-_WORTHWHILE = cython.declare(cython.int, WORTHWHILE)
-_AHEAD = cython.declare(cython.int, AHEAD)
-_TURNED = cython.declare(cython.int, TURNED)
-_FAR = cython.declare(cython.int, 1 << 24)
+_INFINITY = cython.declare(cython.int, 1 << 24)
 
 
-@cython.cclass
 class Windows:
-    """Boxes around changed pieces, and their way through a writer."""
+    """Boxes around what changed, and their way through a writer.
 
-    def __init__(self, writer: Writer, pieces: cython.int[:, ::1]) -> None:
+    `pieces` is room for as many as `limit` of them.
+    """
+
+    def __init__(self, writer, limit):
         self.writer = writer
-        self.pieces = pieces
-        self.boxes = np.zeros((MOST + 1, 4), np.intc)
-        self._kept = np.zeros_like(self.boxes)
+        if cython.compiled:
+            room = limit * cython.sizeof(Piece) + (MOST + 1) * (cython.sizeof(Box) + cython.sizeof(cython.int))
+            self._memory = bytearray(room)
+            self.pieces = cython.cast(cython.pointer(Piece), cython.cast(cython.p_char, self._memory))
+            self.boxes = cython.cast(cython.pointer(Box), self.pieces + cython.cast(cython.Py_ssize_t, limit))
+            self._turns = cython.cast(cython.p_int, self.boxes + MOST + 1)
+        else:
+            self.pieces = [Piece() for _ in range(limit)]
+            self.boxes = [Box() for _ in range(MOST + 1)]
+            self._turns = [0] * (MOST + 1)
+            self._begun = Box()
         # What one more window costs, as a rule: its commands and the framing of two messages.
-        self._window_cost = writer.data_price(2)
+        self._window_cost = self.writer.data_price(2)
 
-    @cython.cfunc
-    def stream(self, count: cython.int) -> cython.int:
+    def stream(self, count):
         """Cells from where the pointer stands in the open window to the last of the pieces; 0 if that is no way."""
         farthest: cython.int = 0
-        i: cython.int
         for i in range(count):
-            if not self._inside(self.pieces[i, 1], self.pieces[i, 2], self.pieces[i, 0], self.pieces[i, 0] + 1):
+            piece = cython.address(self.pieces[i])
+            if not self._inside(piece.left, piece.right, piece.row, piece.row + 1):
                 return 0
-            farthest = max(
-                farthest, self._reach(self.pieces[i, 1], self.pieces[i, 0], self.pieces[i, 2] - 1, self.pieces[i, 0])
-            )
+            farthest = max(farthest, self._reach(piece.left, piece.row, piece.right - 1, piece.row))
         return farthest
 
-    @cython.cfunc
-    @cython.exceptval(check=False)
-    def _inside(self, left: cython.int, right: cython.int, top: cython.int, bottom: cython.int) -> cython.bint:
+    def _inside(self, left, right, top, bottom):
         """Whether the pointer stands in an open window that holds a box."""
-        w: Writer = self.writer
+        chip = cython.address(self.writer.chip)
         return (
-            w.windowed()
-            and w.row >= 0
-            and w.column >= 0
-            and 0 <= w.window_left <= left
-            and right <= w.window_right
-            and 0 <= w.window_top <= top
-            and bottom <= w.window_bottom
+            self.writer.windowed()
+            and chip.row >= 0
+            and chip.column >= 0
+            and 0 <= chip.left <= left
+            and right <= chip.right
+            and 0 <= chip.top <= top
+            and bottom <= chip.bottom
         )
 
-    @cython.cfunc
-    @cython.exceptval(check=False)
-    def _reach(self, left: cython.int, top: cython.int, right: cython.int, bottom: cython.int) -> cython.int:
+    def _reach(self, left, top, right, bottom):
         """Cells from where the pointer stands in the open window by way of one cell to a later one."""
-        w: Writer = self.writer
-        wide: cython.int = w.window_right - w.window_left
-        high: cython.int = w.window_bottom - w.window_top
-        along: cython.int = 1 if w.mode == _HORIZONTAL else high
-        down: cython.int = wide if w.mode == _HORIZONTAL else 1
-        first: cython.int = (top - w.row) * down + (left - w.column) * along
-        last: cython.int = (bottom - w.row) * down + (right - w.column) * along + 1
+        chip = cython.address(self.writer.chip)
+        wide, high = chip.right - chip.left, chip.bottom - chip.top
+        along: cython.int = 1 if chip.mode == HORIZONTAL else high
+        down: cython.int = wide if chip.mode == HORIZONTAL else 1
+        first = (top - chip.row) * down + (left - chip.column) * along
+        last = (bottom - chip.row) * down + (right - chip.column) * along + 1
         if first < 0 < last:
             return wide * high
         return last if first >= 0 else last + wide * high
 
     # -- Which boxes
 
-    @cython.cfunc
-    def bounding(self, count: cython.int) -> cython.int:
+    def bounding(self, count):
         """Make one box around all pieces; return 1."""
-        box: cython.int[:, ::1] = self.boxes
-        i: cython.int
-        box[0, 0], box[0, 1] = self.pieces[0, 1], self.pieces[0, 2]
-        box[0, 2], box[0, 3] = self.pieces[0, 0], self.pieces[count - 1, 0] + 1
+        box = cython.address(self.boxes[0])
+        box.left, box.right = self.pieces[0].left, self.pieces[0].right
+        box.top, box.bottom = self.pieces[0].row, self.pieces[count - 1].row + 1
         for i in range(1, count):
-            box[0, 0] = min(box[0, 0], self.pieces[i, 1])
-            box[0, 1] = max(box[0, 1], self.pieces[i, 2])
+            box.left = min(box.left, self.pieces[i].left)
+            box.right = max(box.right, self.pieces[i].right)
         return 1
 
-    @cython.cfunc
-    def grown(self, count: cython.int) -> cython.int:
+    def grown(self, count):
         """Grow boxes from the pieces, one after the other; return how many, or 0 if they are too many to pay."""
-        box: cython.int[:, ::1] = self.boxes
-        piece: cython.int
-        new: cython.int
-        other: cython.int
-        boxes: cython.int = 0
-        for piece in range(count):
-            box[boxes, 0], box[boxes, 1] = self.pieces[piece, 1], self.pieces[piece, 2]
-            box[boxes, 2], box[boxes, 3] = self.pieces[piece, 0], self.pieces[piece, 0] + 1
-            new = boxes
-            boxes += 1
-            if boxes > _WORTHWHILE and self.writer.has_pointer:
+        boxes = self.boxes
+        grown: cython.int = 0
+        for i in range(count):
+            piece = cython.address(self.pieces[i])
+            new = grown
+            boxes[new].left, boxes[new].right = piece.left, piece.right
+            boxes[new].top, boxes[new].bottom = piece.row, piece.row + 1
+            grown += 1
+            if grown > WORTHWHILE and self.writer.has_pointer:
                 return 0
-            other = self._partner(new, boxes)
+            other = self._partner(new, grown)
             while other >= 0:
-                self._join(other, new)
-                boxes -= 1
-                self._swap(new, boxes)
-                new = new if other == boxes else other
-                other = self._partner(new, boxes)
-        return boxes
+                self._join(cython.address(boxes[other]), cython.address(boxes[new]))
+                grown -= 1
+                boxes[new], boxes[grown] = boxes[grown], boxes[new]
+                new = new if other == grown else other
+                other = self._partner(new, grown)
+        return grown
 
-    @cython.cfunc
-    def _partner(self, new: cython.int, boxes: cython.int) -> cython.int:
+    def _partner(self, new, count):
         """The box that a new one is best joined to; -1 where none is worth it."""
-        i: cython.int
-        saved: cython.int
         best: cython.int = -1
-        most: cython.int = 0 if boxes <= _MOST else -_FAR
-        for i in range(boxes):
+        most: cython.int = 0 if count <= MOST else -_INFINITY
+        one = cython.address(self.boxes[new])
+        for i in range(count):
+            other = cython.address(self.boxes[i])
             # Boxes come by rows: far above, none saves anything.
-            if i == new or (most >= 0 and self.boxes[new, 2] - self.boxes[i, 3] > self._window_cost):
+            if i == new or (most >= 0 and one.top - other.bottom > self._window_cost):
                 continue
-            saved = self._saved(i, new)
+            saved = self._saved(other, one)
             if saved > most:
                 best, most = i, saved
         return best
 
-    @cython.cfunc
-    @cython.inline
-    def _saved(self, i: cython.int, j: cython.int) -> cython.int:
+    def _saved(self, one, other):
         """Bytes that joining two boxes saves."""
-        box: cython.int[:, ::1] = self.boxes
-        wide: cython.int = max(box[i, 1], box[j, 1]) - min(box[i, 0], box[j, 0])
-        high: cython.int = max(box[i, 3], box[j, 3]) - min(box[i, 2], box[j, 2])
-        one: cython.int = (box[i, 1] - box[i, 0]) * (box[i, 3] - box[i, 2])
-        other: cython.int = (box[j, 1] - box[j, 0]) * (box[j, 3] - box[j, 2])
-        return self._window_cost + self.writer.cell_bytes * (one + other - wide * high)
+        wide = max(one.right, other.right) - min(one.left, other.left)
+        high = max(one.bottom, other.bottom) - min(one.top, other.top)
+        return self._window_cost + self.writer.cell_bytes * (_area(one) + _area(other) - wide * high)
 
-    @cython.cfunc
-    def _join(self, one: cython.int, other: cython.int) -> cython.void:
+    def _join(self, one, other):
         """Make one box the one around both."""
-        box: cython.int[:, ::1] = self.boxes
-        box[one, 0] = min(box[one, 0], box[other, 0])
-        box[one, 1] = max(box[one, 1], box[other, 1])
-        box[one, 2] = min(box[one, 2], box[other, 2])
-        box[one, 3] = max(box[one, 3], box[other, 3])
+        one.left, one.right = min(one.left, other.left), max(one.right, other.right)
+        one.top, one.bottom = min(one.top, other.top), max(one.bottom, other.bottom)
 
-    @cython.cfunc
-    def _swap(self, one: cython.int, other: cython.int) -> cython.void:
-        side: cython.int
-        kept: cython.int
-        for side in range(4):
-            kept = self.boxes[one, side]
-            self.boxes[one, side] = self.boxes[other, side]
-            self.boxes[other, side] = kept
-
-    @cython.cfunc
-    def tall_first(self, count: cython.int) -> cython.int:
+    def tall_first(self, count):
         """Bring the boxes of more than one row to the front; return how many they are."""
-        i: cython.int
+        boxes = self.boxes
         tall: cython.int = 0
         for i in range(count):
-            if self.boxes[i, 3] - self.boxes[i, 2] > 1:
-                self._swap(i, tall)
+            if boxes[i].bottom - boxes[i].top > 1:
+                boxes[i], boxes[tall] = boxes[tall], boxes[i]
                 tall += 1
         return tall
 
-    @cython.cfunc
-    def cover(self, boxes: cython.int, piece: cython.int) -> cython.bint:
+    def cover(self, count, piece):
         """Whether one of the first boxes holds a piece whole."""
-        i: cython.int
-        for i in range(boxes):
-            if (
-                self.boxes[i, 2] <= self.pieces[piece, 0] < self.boxes[i, 3]
-                and self.boxes[i, 0] <= self.pieces[piece, 1]
-                and self.pieces[piece, 2] <= self.boxes[i, 1]
-            ):
+        for i in range(count):
+            box = cython.address(self.boxes[i])
+            if box.top <= piece.row < box.bottom and box.left <= piece.left and piece.right <= box.right:
                 return True
         return False
 
     # -- Through the writer
 
-    @cython.cfunc
-    def stream_cost(self, stream: cython.int) -> cython.int:
+    def stream_cost(self, cells):
         """Bytes that so many cells onward in the open window take."""
         self.writer.rehearse()
-        self.writer.cells(stream)
+        self.writer.cells(cells)
         return self.writer.rehearsed()
 
-    @cython.cfunc
-    def cost(self, count: cython.int) -> cython.int:
+    def cost(self, count):
         """Bytes that writing the first boxes takes."""
         return min(self._rehearsed(count, False), self._rehearsed(count, True))
 
-    @cython.cfunc
-    def write(self, count: cython.int) -> cython.void:
+    def write(self, count):
         """Write the first boxes, in the other mode of windows if that pays."""
-        turned: cython.int = self._rehearsed(count, True)
-        self._write(count, turned < _FAR and turned < self._rehearsed(count, False))
+        turned = self._rehearsed(count, True)
+        self._write(count, turned < _INFINITY and turned < self._rehearsed(count, False))
 
-    @cython.cfunc
-    def _rehearsed(self, count: cython.int, turned: cython.bint) -> cython.int:
+    def _rehearsed(self, count, turned):
         """Bytes that writing the first boxes takes in the mode that is set or, turned, in the other one."""
-        w: Writer = self.writer
-        if turned and (count > _TURNED or not w.windowed()):
-            return _FAR
-        self._copy(self.boxes, self._kept, count)
-        w.rehearse()
+        if turned and (count > TURNED or not self.writer.windowed()):
+            return _INFINITY
+        self.writer.rehearse()
         self._write(count, turned)
-        self._copy(self._kept, self.boxes, count)
-        return w.rehearsed()
+        return self.writer.rehearsed()
 
-    @cython.cfunc
-    def _copy(self, source: cython.int[:, ::1], target: cython.int[:, ::1], count: cython.int) -> cython.void:
-        i: cython.int
-        side: cython.int
-        for i in range(count):
-            for side in range(4):
-                target[i, side] = source[i, side]
-
-    @cython.cfunc
-    def _write(self, count: cython.int, turned: cython.bint) -> cython.void:
+    def _write(self, count, turned):
         """Write the first boxes, always the one next that costs least beyond its own cells."""
-        w: Writer = self.writer
-        done: cython.int
-        i: cython.int
-        price: cython.int
-        best: cython.int
-        least: cython.int
+        w, turns = self.writer, self._turns
         if turned:
-            w.set_mode(_HORIZONTAL if w.mode == _VERTICAL else _VERTICAL)
+            w.set_mode(HORIZONTAL if w.chip.mode == VERTICAL else VERTICAL)
+        for i in range(count):
+            turns[i] = i
         for done in range(count):
-            best, least = done, _FAR
-            for i in range(done, min(count, done + _AHEAD) if done < count - 1 else done):
-                price = self._price(i)
-                if price < least:
-                    best, least = i, price
-            self._swap(done, best)
-            self._write_one(done, done == count - 1)
+            following = self._next(done, count)
+            turns[done], turns[following] = turns[following], turns[done]
+            self._write_one(cython.address(self.boxes[turns[done]]), done == count - 1)
         w.finish()
 
-    @cython.cfunc
-    def _price(self, i: cython.int) -> cython.int:
+    def _next(self, done, count):
+        """The turn of the box to write after so many; the last one needs no search."""
+        best: cython.int = done
+        least: cython.int = _INFINITY
+        turn: cython.int
+        for turn in range(done, min(count, done + AHEAD) if done < count - 1 else done):
+            price = self._price(cython.address(self.boxes[self._turns[turn]]))
+            if price < least:
+                best, least = turn, price
+        return best
+
+    def _price(self, box):
         """Bytes that a box costs beyond its own cells: on the way to it, or for its commands."""
-        box: cython.int[:, ::1] = self.boxes
-        w: Writer = self.writer
-        left: cython.int = box[i, 0]
-        top: cython.int = box[i, 2]
-        own: cython.int = w.cell_bytes * self._area(i)
-        least: cython.int = self._begin_early(i) - own
-        box[i, 0], box[i, 2] = left, top
-        if self._inside(left, box[i, 1], top, box[i, 3]):
-            least = min(least, w.data_price(0) + w.cell_bytes * self._reach_of(i, self._area(i)) - own)
+        w = self.writer
+        own = w.cell_bytes * _area(box)
+        least = self._begin_early(box) - own
+        if self._inside(box.left, box.right, box.top, box.bottom):
+            least = min(least, w.data_price(0) + w.cell_bytes * self._reach_of(box, _area(box)) - own)
         return least
 
-    @cython.cfunc
-    def _begin_early(self, i: cython.int) -> cython.int:
-        """Let a box begin where the pointer stands if that is cheaper than to move it; return the box's bytes."""
-        box: cython.int[:, ::1] = self.boxes
-        w: Writer = self.writer
-        left: cython.int = box[i, 0]
-        top: cython.int = box[i, 2]
-        best_left: cython.int = left
-        best_top: cython.int = top
-        least: cython.int = w.data_price(self._commands(i)) + w.cell_bytes * self._area(i)
-        cost: cython.int
+    def _begin_early(self, box):
+        """Let a box begin where the pointer stands if that is cheaper than to move it; return the box's bytes.
+
+        What becomes of the box is left in `_begun`.
+        """
+        w, begun = self.writer, cython.address(self._begun)
+        row, column = w.chip.row, w.chip.column
+        best_left, best_top = box.left, box.top
+        begun.left, begun.right, begun.top, begun.bottom = box.left, box.right, box.top, box.bottom
+        least = w.data_price(self._commands(begun)) + w.cell_bytes * _area(begun)
         early: cython.int
         for early in range(1, 4 if w.windowed() else 1):
-            if (early & 1 and not 0 <= w.column < left) or (early & 2 and not 0 <= w.row < top):
+            if (early & 1 and not 0 <= column < box.left) or (early & 2 and not 0 <= row < box.top):
                 continue
-            box[i, 0] = w.column if early & 1 else left
-            box[i, 2] = w.row if early & 2 else top
-            cost = w.cell_bytes * self._area(i)
+            begun.left = column if early & 1 else box.left
+            begun.top = row if early & 2 else box.top
+            cost = w.cell_bytes * _area(begun)
             if cost < least:  # else no commands could be few enough
-                cost += w.data_price(self._commands(i))
+                cost += w.data_price(self._commands(begun))
             if cost < least:
-                least, best_left, best_top = cost, box[i, 0], box[i, 2]
-        box[i, 0], box[i, 2] = best_left, best_top
+                least, best_left, best_top = cost, begun.left, begun.top
+        begun.left, begun.top = best_left, best_top
         return least
 
-    @cython.cfunc
-    @cython.inline
-    @cython.exceptval(check=False)
-    def _area(self, i: cython.int) -> cython.int:
-        return (self.boxes[i, 1] - self.boxes[i, 0]) * (self.boxes[i, 3] - self.boxes[i, 2])
-
-    @cython.cfunc
-    def _commands(self, i: cython.int) -> cython.int:
+    def _commands(self, box):
         """How many of a window's commands a box needs."""
-        box: cython.int[:, ::1] = self.boxes
-        w: Writer = self.writer
-        columns: cython.bint = w.columns_hold(box[i, 0], box[i, 1], box[i, 3] - box[i, 2])
-        rows: cython.bint = w.rows_hold(box[i, 2], box[i, 3], box[i, 1] - box[i, 0])
+        columns = self.writer.columns_hold(box.left, box.right, box.bottom - box.top)
+        rows = self.writer.rows_hold(box.top, box.bottom, box.right - box.left)
         return 2 - columns - rows
 
-    @cython.cfunc
-    def _write_one(self, i: cython.int, last: cython.bint) -> cython.void:
+    def _write_one(self, box, last):
         """Write a box, on the way through the open window or as a window; the last only as far as something changed."""
-        box: cython.int[:, ::1] = self.boxes
-        w: Writer = self.writer
+        w, begun = self.writer, cython.address(self._begun)
         if not w.windowed():
-            downward: cython.bint = self._idle_tail(i, _VERTICAL) > self._idle_tail(i, _HORIZONTAL)
-            w.set_mode(_VERTICAL if downward else _HORIZONTAL)
-        idle: cython.int = self._idle_tail(i, w.mode) if last else 0
+            downward = self._idle_tail(box, VERTICAL) > self._idle_tail(box, HORIZONTAL)
+            w.set_mode(VERTICAL if downward else HORIZONTAL)
+        idle: cython.int = self._idle_tail(box, w.chip.mode) if last else 0
         through: cython.int = 0
-        if self._inside(box[i, 0], box[i, 1], box[i, 2], box[i, 3]):
-            through = self._reach_of(i, self._area(i) - idle)
-        addressed: cython.int = self._begin_early(i) - w.cell_bytes * idle
+        if self._inside(box.left, box.right, box.top, box.bottom):
+            through = self._reach_of(box, _area(box) - idle)
+        addressed = self._begin_early(box) - w.cell_bytes * idle
         if through > 0 and w.data_price(0) + w.cell_bytes * through < addressed:
             w.cells(through)
             return
-        w.window(box[i, 0], box[i, 1], box[i, 2], box[i, 3])
-        w.cells(self._area(i) - idle)
+        w.window(begun.left, begun.right, begun.top, begun.bottom)
+        w.cells(_area(begun) - idle)
 
-    @cython.cfunc
-    def _reach_of(self, i: cython.int, cells: cython.int) -> cython.int:
+    def _reach_of(self, box, cells):
         """Cells from where the pointer stands to so many of a box."""
-        box: cython.int[:, ::1] = self.boxes
-        wide: cython.int = box[i, 1] - box[i, 0]
-        high: cython.int = box[i, 3] - box[i, 2]
-        last: cython.int = cells - 1
-        if self.writer.mode == _HORIZONTAL:
-            return self._reach(box[i, 0], box[i, 2], box[i, 0] + last % wide, box[i, 2] + last // wide)
-        return self._reach(box[i, 0], box[i, 2], box[i, 0] + last // high, box[i, 2] + last % high)
+        wide, high, last = box.right - box.left, box.bottom - box.top, cells - 1
+        if self.writer.chip.mode == HORIZONTAL:
+            return self._reach(box.left, box.top, box.left + last % wide, box.top + last // wide)
+        return self._reach(box.left, box.top, box.left + last // high, box.top + last % high)
 
-    @cython.cfunc
-    def _idle_tail(self, i: cython.int, mode: cython.int) -> cython.int:
+    def _idle_tail(self, box, mode):
         """Unchanged cells at the end of a box that is written in one of the two modes."""
-        box: cython.int[:, ::1] = self.boxes
-        row: cython.int = box[i, 3] - 1
-        column: cython.int = box[i, 1] - 1
+        row, column = box.bottom - 1, box.right - 1
         idle: cython.int = 0
         while self.writer.held(row, column):
             idle += 1
-            if mode == _VERTICAL:
+            if mode == VERTICAL:
                 row -= 1
-                if row < box[i, 2]:
-                    row, column = box[i, 3] - 1, column - 1
+                if row < box.top:
+                    row, column = box.bottom - 1, column - 1
             else:
                 column -= 1
-                if column < box[i, 0]:
-                    row, column = row - 1, box[i, 1] - 1
+                if column < box.left:
+                    row, column = row - 1, box.right - 1
         return idle
+
+
+@cython.cfunc
+@cython.inline
+@cython.exceptval(check=False)
+def _area(box: cython.pointer(Box)) -> cython.int:  # type: ignore[valid-type]
+    return (box.right - box.left) * (box.bottom - box.top)
