@@ -1,4 +1,5 @@
-# cython: language_level=3, boundscheck=False, wraparound=False, cdivision=True, infer_types=True
+# cython: language_level=3, boundscheck=False, wraparound=False, cdivision=True
+# cython: infer_types=True, binding=False
 """Levels, one byte a pixel, to the bytes that a panel's RAM takes. One function a packing, none a chip."""
 
 from __future__ import annotations
@@ -7,7 +8,7 @@ from typing import Any
 
 import cython
 import numpy as np
-from cython.cimports.cpython.buffer import PyBUF_STRIDES, PyBuffer_Release, PyObject_GetBuffer
+from cython.cimports.cpython.memoryview import PyMemoryView_GET_BUFFER
 
 #: A rectangle of bytes in memory: that of row y and column x is ``start[y * down + x * across]``.
 Rectangle = cython.struct(
@@ -20,16 +21,15 @@ Rectangle = cython.struct(
 
 
 @cython.cfunc
-def _rectangle(array: object) -> Rectangle:  # type: ignore[valid-type]
+def _rectangle(array: Any) -> Rectangle:  # type: ignore[valid-type]
     """Where the bytes of an array are, which the caller holds."""
     if cython.compiled:
-        found: Rectangle  # type: ignore[valid-type]
-        view: Py_buffer  # type: ignore[name-defined]  # noqa: F821
-        PyObject_GetBuffer(array, cython.address(view), PyBUF_STRIDES)
+        found = cython.declare(Rectangle)
+        held = memoryview(array)
+        view = PyMemoryView_GET_BUFFER(held)
         found.start = cython.cast(cython.p_uchar, view.buf)
         found.height, found.width = view.shape[0], view.shape[1]
         found.down, found.across = view.strides[0], view.strides[1]
-        PyBuffer_Release(cython.address(view))
     else:
         found = Rectangle()
         found.start = np.ascontiguousarray(array).reshape(-1).data
@@ -50,30 +50,22 @@ def pack_pages(levels: Any, max_level: cython.int, packed: Any) -> None:
     packed : (height / 8, width) uint8, contiguous
         Where the pages go, from the top.
     """
-    pages = _rectangle(packed)
-    pixels = _rectangle(levels)
-    threshold: cython.uchar = max_level >> 1
-    for y in range(8 * pages.height):
-        _pack_row(pixels, y, threshold, pages)
-
-
-@cython.cfunc
-@cython.exceptval(check=False)
-def _pack_row(pixels: Rectangle, y: cython.Py_ssize_t, threshold: cython.uchar, pages: Rectangle) -> cython.void:  # type: ignore[valid-type]
-    """Put one row into its page; the first of a page clears the others."""
-    bit: cython.uchar = 1 << (y & 7)
-    levels, packed, step = pixels.start, pages.start, pixels.across
-    row: cython.Py_ssize_t = y * pixels.down
-    page: cython.Py_ssize_t = (y >> 3) * pages.width
-    if y & 7 == 0:
-        for x in range(pages.width):
-            packed[page + x] = 0
-    if step == 1:  # the same loop, apart: compilers make vectors of it
-        for x in range(pages.width):
-            packed[page + x] |= bit if levels[row + x] > threshold else 0
-    else:
-        for x in range(pages.width):
-            packed[page + x] |= bit if levels[row + x * step] > threshold else 0
+    source, target = _rectangle(levels), _rectangle(packed)
+    pixels, pages, step, width = source.start, target.start, source.across, target.width
+    threshold = cython.cast(cython.uchar, max_level >> 1)
+    for y in range(8 * target.height):
+        bit = cython.cast(cython.uchar, 1 << (y & 7))
+        row = y * source.down
+        page = (y >> 3) * width
+        if y & 7 == 0:
+            for x in range(page, page + width):
+                pages[x] = 0
+        if step == 1:  # the same loop, apart: compilers make vectors of it
+            for x in range(width):
+                pages[page + x] |= bit if pixels[row + x] > threshold else 0
+        else:
+            for x in range(width):
+                pages[page + x] |= bit if pixels[row + x * step] > threshold else 0
 
 
 def pack_nibbles(levels: Any, max_level: cython.int, packed: Any) -> None:
@@ -88,12 +80,13 @@ def pack_nibbles(levels: Any, max_level: cython.int, packed: Any) -> None:
     packed : (height, width / 2) uint8, contiguous
         Where the rows go, from the top.
     """
-    pixels, pairs, nibbles = _rectangle(levels), _rectangle(packed), _rectangle(_NIBBLES[max_level]).start
-    for y in range(pairs.height):
-        left: cython.Py_ssize_t = y * pixels.down
-        for at in range(y * pairs.width, (y + 1) * pairs.width):
-            pairs.start[at] = nibbles[pixels.start[left]] << 4 | nibbles[pixels.start[left + pixels.across]]
-            left += 2 * pixels.across
+    source, target, nibbles = _rectangle(levels), _rectangle(packed), _rectangle(_NIBBLES[max_level]).start
+    pixels, pairs, step = source.start, target.start, source.across
+    for y in range(target.height):
+        left = y * source.down
+        for pair in range(y * target.width, (y + 1) * target.width):
+            pairs[pair] = nibbles[pixels[left]] << 4 | nibbles[pixels[left + step]]
+            left += 2 * step
 
 
 _NIBBLES = {

@@ -7,11 +7,11 @@ cdef struct Registers:
 
 @cython.final
 cdef class Writer:
-    cdef object fresh, _shadow, _plan
+    cdef object fresh, _shadow, plan
     cdef unsigned char *new
     cdef unsigned char *old
     cdef bint known
-    cdef int cell_bytes, width, height, left, top, ram_width
+    cdef int cell_bytes, width, height, left, top, ram_width, most_pieces
     cdef bint has_pointer, has_window, wraps
     cdef tuple _modes
     cdef bytes _write
@@ -25,6 +25,7 @@ cdef class Writer:
     cdef Py_ssize_t *_stops
     cdef Py_ssize_t _end, messages
 
+    cdef void _make_room_for(self, int width)
     cdef void sent(self) noexcept
     cdef void forget(self) noexcept
     cdef void restart(self) noexcept

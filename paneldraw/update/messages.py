@@ -1,4 +1,5 @@
-# cython: language_level=3, boundscheck=False, wraparound=False, cdivision=True, infer_types=True, auto_pickle=False
+# cython: language_level=3, boundscheck=False, wraparound=False, cdivision=True
+# cython: infer_types=True, auto_pickle=False
 """The messages of a plan, and what they leave in the chip's addressing registers.
 
 A cell is what one address of the chip's RAM holds, a row a page of cells where the chip has pages. Columns and rows
@@ -11,9 +12,10 @@ from copy import copy
 
 import cython
 import numpy as np
+from cython.cimports.cpython.memoryview import PyMemoryView_GET_BUFFER
 from cython.cimports.libc.string import memcpy
 
-from paneldraw.transports.base import CHAINED, COMMAND, DATA
+from paneldraw.transports.base import CHAINED, COMMAND, DATA, Plan
 
 if not cython.compiled:
     from types import SimpleNamespace as Registers
@@ -33,39 +35,46 @@ class Writer:
     Rehearsed messages are counted, and leave no trace.
     """
 
-    def __init__(self, controller, cost, plan):
+    def __init__(self, controller, cost):
+        wide: cython.int
+        high: cython.int
         wide, high = controller.cell
         pointer, window = controller.pointer, controller.window
-        self.cell_bytes = window.column_bytes if window else 1
-        self.width, self.height = controller.width // wide, controller.height // high
-        self.fresh = np.zeros((self.height, self.width * self.cell_bytes), np.uint8)
-        self._shadow = np.zeros_like(self.fresh)
-        self.new, self.old = _start(self.fresh), _start(self._shadow)
-        self.known = False
         self.left, self.top = controller.column_offset // wide, controller.row_offset // high
+        self.width, self.height = controller.width // wide, controller.height // high
         self.ram_width = controller.ram_width // wide
         self.has_pointer, self.has_window = pointer is not None, window is not None
         self.wraps = pointer is not None and pointer.wraps
-        self._modes = (
-            window.across if window else b"",
-            window.down if window else b"",
-            pointer.mode if pointer else b"",
-        )
-        self._write = window.write if window else b""
-        self._columns, self._rows = (window.columns, window.rows) if window else (0, 0)
-        self._arguments = DATA if controller.arguments_are_data else COMMAND
+        self.cell_bytes, self._columns, self._rows, self._write = 1, 0, 0, b""
+        across = down = b""
+        if window is not None:
+            self.cell_bytes, self._write = window.column_bytes, window.write
+            self._columns, self._rows, across, down = window.columns, window.rows, window.across, window.down
+        self._modes = (across, down, pointer.mode if pointer is not None else b"")
+        self._arguments = _DATA if controller.arguments_are_data else _COMMAND
         self.command_cost, self.data_cost = cost.command, cost.data
-        chained = cost.chained if controller.chained_control else None
-        self.chained_cost = -1 if chained is None else chained
+        self.chained_cost = -1 if cost.chained is None or not controller.chained_control else cost.chained
         self._longest = _UNLIMITED if cost.longest is None else cost.longest
-        self._plan = plan
-        self._out = _start(plan.buffer)
-        self._starts, self._stops = _numbers(plan.starts), _numbers(plan.stops)
-        if not cython.compiled:
-            self.chip = Registers()
+        self._make_room_for(controller.width)
         self._rehearsing, self._kind, self._length, self._filling = False, -1, 0, False
         self.begin()
         self.forget()
+
+    def _make_room_for(self, width):
+        """Make the frames and a plan of a panel of this width."""
+        self.fresh = np.zeros((self.height, self.width * self.cell_bytes), np.uint8)
+        self._shadow = np.zeros_like(self.fresh)
+        self.most_pieces = self.height * (self.width // 2 + 1) + 1
+        payload = self.height * (width + 16) + 64
+        messages = 8 * self.most_pieces + (payload // self._longest)
+        self.plan = Plan(payload + messages, messages)
+        self.new = cython.cast(cython.p_uchar, _memory(self.fresh.reshape(-1).data))
+        self.old = cython.cast(cython.p_uchar, _memory(self._shadow.reshape(-1).data))
+        self._out = cython.cast(cython.p_uchar, _memory(self.plan.buffer.data))
+        self._starts = cython.cast(cython.p_Py_ssize_t, _memory(self.plan.starts))
+        self._stops = cython.cast(cython.p_Py_ssize_t, _memory(self.plan.stops))
+        if not cython.compiled:
+            self.chip = Registers()
 
     def sent(self):
         """Know that the chip holds the new frame."""
@@ -236,6 +245,7 @@ class Writer:
             self._pass(count)
             return
         chip = cython.address(self.chip)
+        run: cython.int
         while count > 0:
             run = 1
             if chip.mode != VERTICAL:
@@ -310,7 +320,7 @@ class Writer:
             self.total += self.command_cost if kind == _COMMAND else self.chained_cost
         if not self._rehearsing:
             self._starts[self.messages] = self._end
-            self._out[self._end] = kind
+            self._out[self._end] = cython.cast(cython.uchar, kind)
             self._end += 1
 
     def _make_room(self):
@@ -326,7 +336,7 @@ class Writer:
         self.total += 1
         self._length += 1
         if not self._rehearsing:
-            self._out[self._end] = byte
+            self._out[self._end] = cython.cast(cython.uchar, byte)
             self._end += 1
 
     def finish(self):
@@ -337,28 +347,10 @@ class Writer:
         self._kind, self._filling = -1, False
 
 
-# -- Memory of numpy's
-
-
 @cython.cfunc
-def _address(memory: object) -> cython.size_t:
-    return np.asarray(memory).__array_interface__["data"][0]
-
-
-@cython.cfunc
-def _start(array: object) -> cython.p_uchar:
-    """Where the bytes of an array begin."""
-    if cython.compiled:
-        return cython.cast(cython.p_uchar, _address(array))
-    return array.reshape(-1).data
-
-
-@cython.cfunc
-def _numbers(view: object) -> cython.p_Py_ssize_t:
-    """Where the numbers of a memoryview begin."""
-    if cython.compiled:
-        return cython.cast(cython.p_Py_ssize_t, _address(view))
-    return view
+def _memory(view: memoryview) -> cython.p_void:
+    """Where the memory of a memoryview begins."""
+    return PyMemoryView_GET_BUFFER(view).buf if cython.compiled else view
 
 
 @cython.cfunc

@@ -1,4 +1,5 @@
-# cython: language_level=3, boundscheck=False, wraparound=False, cdivision=True, infer_types=True, auto_pickle=False
+# cython: language_level=3, boundscheck=False, wraparound=False, cdivision=True
+# cython: infer_types=True, auto_pickle=False, binding=False
 """From the shadow of the panel's RAM and a new frame to a plan of few bytes.
 
 A *piece* is a stretch of changed cells in one row. Which ways there are, the controller says.
@@ -36,11 +37,9 @@ from cython.cimports.paneldraw.update.messages import PAGE, Writer
 from cython.cimports.paneldraw.update.order import EXACT, IMPROVED, Order
 from cython.cimports.paneldraw.update.windows import MOST, Windows
 
-from paneldraw.transports.base import Plan
-
 if TYPE_CHECKING:
     from paneldraw.controllers import Controller
-    from paneldraw.transports.base import Cost
+    from paneldraw.transports.base import Cost, Plan
 
 _INFINITY = cython.declare(cython.int, 1 << 24)
 _POINTER = cython.declare(cython.int, 0)
@@ -68,7 +67,6 @@ class Planner:
     """
 
     fresh = cython.declare(object, visibility="readonly")
-    _plan: object
     _memory: object
     _writer: Writer
     _windows: Windows
@@ -87,28 +85,21 @@ class Planner:
     _early: cython.int
 
     def __init__(self, controller: Controller, cost: Cost) -> None:
-        wide, high = controller.cell
-        rows, width = controller.height // high, controller.width // wide
-        limit = rows * (width // 2 + 1) + 1
-        payload = rows * (controller.width + 16) + 64
-        messages = 8 * limit + (payload // cost.longest if cost.longest else 0)
-        self._plan = Plan(payload + messages, messages)
-        self._writer = Writer(controller, cost, self._plan)
-        self._windows = Windows(self._writer, limit)
+        self._writer = w = Writer(controller, cost)
+        self._windows = Windows(w)
         self._order = Order()
-        self._around = self._writer.wraps and controller.width == controller.ram_width
-        self.fresh = self._writer.fresh
+        self.fresh = w.fresh
+        self._around = w.wraps and controller.width == controller.ram_width
+        pieces = w.most_pieces
         if cython.compiled:
-            room: cython.Py_ssize_t = limit
-            self._memory = bytearray(2 * room * cython.sizeof(cython.int))
+            self._memory = bytearray(2 * pieces * cython.sizeof(cython.int))
             self._path = cython.cast(cython.p_int, cython.cast(cython.p_char, self._memory))
-            self._rest = self._path + room
+            self._rest = self._path + pieces
         else:
-            self._path, self._rest, self._jumps = [0] * limit, [0] * limit, [0] * 4
+            self._path, self._rest, self._jumps = [0] * pieces, [0] * pieces, [0] * 4
         for commands in range(4):
-            self._jumps[commands] = cost.data + (cost.command + commands if commands else 0)
-            if controller.chained_control and cost.chained is not None:
-                self._jumps[commands] = min(self._jumps[commands], cost.chained + 2 * commands)
+            jump = w.data_cost + (w.command_cost + commands if commands > 0 else 0)
+            self._jumps[commands] = min(jump, w.chained_cost + 2 * commands) if w.chained_cost >= 0 else jump
         self._shifts = max(self._jumps[3] - self._jumps[1] - 1, 0)
 
     def plan(self) -> Plan:
@@ -116,12 +107,13 @@ class Planner:
 
         Once it went out call `sent`; if it failed, `forget`.
         """
-        plan = self._plan
-        self._writer.begin()
+        w = self._writer
+        plan = w.plan
+        w.begin()
         plan.changed = self._find_pieces()
         if self._count > 0:
             self._choose()
-        plan.count, plan.cost = self._writer.messages, self._writer.total
+        plan.count, plan.cost = w.messages, w.total
         return plan
 
     def sent(self) -> None:
@@ -183,9 +175,13 @@ class Planner:
         """Whether nothing changed in a row."""
         w = self._writer
         size = w.width * w.cell_bytes
+        first = row * size
+        same: cython.bint
         if cython.compiled:
-            return memcmp(w.new + row * size, w.old + row * size, size) == 0
-        return w.new[row * size : (row + 1) * size] == w.old[row * size : (row + 1) * size]
+            same = memcmp(w.new + first, w.old + first, size) == 0
+        else:
+            same = w.new[first : first + size] == w.old[first : first + size]
+        return same
 
     @cython.cfunc
     @cython.exceptval(check=False)

@@ -1,4 +1,5 @@
-# cython: language_level=3, boundscheck=False, wraparound=False, cdivision=True, infer_types=True, auto_pickle=False
+# cython: language_level=3, boundscheck=False, wraparound=False, cdivision=True
+# cython: infer_types=True, auto_pickle=False
 """Updates as rectangles: which ones, in which order, and what they cost.
 
 A box is a rectangle of cells, a piece a stretch of them in one row; right and bottom are exclusive.
@@ -26,21 +27,19 @@ _INFINITY = cython.declare(cython.int, 1 << 24)
 
 
 class Windows:
-    """Boxes around what changed, and their way through a writer.
+    """Boxes around the pieces, and their way through a writer."""
 
-    `pieces` is room for as many as `limit` of them.
-    """
-
-    def __init__(self, writer, limit):
+    def __init__(self, writer):
         self.writer = writer
+        pieces = self.writer.most_pieces
         if cython.compiled:
-            room = limit * cython.sizeof(Piece) + (MOST + 1) * (cython.sizeof(Box) + cython.sizeof(cython.int))
+            room = pieces * cython.sizeof(Piece) + (MOST + 1) * (cython.sizeof(Box) + cython.sizeof(cython.int))
             self._memory = bytearray(room)
             self.pieces = cython.cast(cython.pointer(Piece), cython.cast(cython.p_char, self._memory))
-            self.boxes = cython.cast(cython.pointer(Box), self.pieces + cython.cast(cython.Py_ssize_t, limit))
+            self.boxes = cython.cast(cython.pointer(Box), self.pieces + pieces)
             self._turns = cython.cast(cython.p_int, self.boxes + MOST + 1)
         else:
-            self.pieces = [Piece() for _ in range(limit)]
+            self.pieces = [Piece() for _ in range(pieces)]
             self.boxes = [Box() for _ in range(MOST + 1)]
             self._turns = [0] * (MOST + 1)
             self._begun = Box()
@@ -266,14 +265,16 @@ class Windows:
 
     def _reach_of(self, box, cells):
         """Cells from where the pointer stands to so many of a box."""
-        wide, high, last = box.right - box.left, box.bottom - box.top, cells - 1
+        wide, high = box.right - box.left, box.bottom - box.top
+        last: cython.int = cells - 1
         if self.writer.chip.mode == HORIZONTAL:
             return self._reach(box.left, box.top, box.left + last % wide, box.top + last // wide)
         return self._reach(box.left, box.top, box.left + last // high, box.top + last % high)
 
     def _idle_tail(self, box, mode):
         """Unchanged cells at the end of a box that is written in one of the two modes."""
-        row, column = box.bottom - 1, box.right - 1
+        row: cython.int = box.bottom - 1
+        column: cython.int = box.right - 1
         idle: cython.int = 0
         while self.writer.held(row, column):
             idle += 1
