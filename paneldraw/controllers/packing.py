@@ -51,21 +51,22 @@ def pack_pages(levels: Any, max_level: cython.int, packed: Any) -> None:
         Where the pages go, from the top.
     """
     source, target = _rectangle(levels), _rectangle(packed)
-    pixels, pages, step, width = source.start, target.start, source.across, target.width
+    pixels, pages, width = source.start, target.start, target.width
     threshold = cython.cast(cython.uchar, max_level >> 1)
-    for y in range(8 * target.height):
-        bit = cython.cast(cython.uchar, 1 << (y & 7))
-        row = y * source.down
-        page = (y >> 3) * width
-        if y & 7 == 0:
-            for x in range(page, page + width):
-                pages[x] = 0
-        if step == 1:  # the same loop, apart: compilers make vectors of it
-            for x in range(width):
-                pages[page + x] |= bit if pixels[row + x] > threshold else 0
-        else:
-            for x in range(width):
-                pages[page + x] |= bit if pixels[row + x * step] > threshold else 0
+    for page in range(target.height):
+        first = page * width
+        for x in range(first, first + width):
+            pages[x] = 0
+        for row in range(8):
+            bit = cython.cast(cython.uchar, 1 << row)
+            at = (8 * page + row) * source.down
+            if source.across == 1:  # the same loop, apart: compilers make vectors of it
+                for x in range(width):
+                    pages[first + x] |= bit & -(pixels[at + x] > threshold)
+            else:
+                for x in range(width):
+                    pages[first + x] |= bit & -(pixels[at] > threshold)
+                    at += source.across
 
 
 def pack_nibbles(levels: Any, max_level: cython.int, packed: Any) -> None:
