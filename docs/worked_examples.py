@@ -208,10 +208,10 @@ def _update() -> Any:
 def update_steps() -> str:
     planner, _ = _update()
     count = planner._count
-    names = [f"page {row}, column {first}" for row, first, _ in planner._pieces[:count].tolist()]
+    names = [f"page {piece.row}, column {piece.left}" for piece in planner._windows.pieces[:count]]
     rows = []
     for i, name in enumerate(["where it stands", *names]):
-        lengths = ["" if i == j + 1 else int(planner._lengths[i, j]) for j in range(count)]
+        lengths = ["" if i == j + 1 else planner._order.step(i - 1, j) for j in range(count)]
         rows.append([name, *lengths])
     return table(f"from|to {'|to '.join(names)}", rows)
 

@@ -13,9 +13,10 @@ from searching import examples
 from paneldraw import simulator
 from paneldraw.controllers import SH1106, SSD1306, SSD1327, Controller, PagePointer
 from paneldraw.transports import COMMAND, DATA, Cost
-from paneldraw.update.paths import EXACT
 
 I2C = Cost(2, 2, 2)
+EXACT = 9
+"""Up to so many pieces, says the planner, its path is the shortest there is."""
 SIZES = [(128, 64), (128, 32), (96, 16), (72, 40), (64, 48), (64, 32), (48, 64)]
 
 

@@ -66,7 +66,7 @@ class Writer:
         self._shadow = np.zeros_like(self.fresh)
         self.most_pieces = self.height * (self.width // 2 + 1) + 1
         payload = self.height * (width + 16) + 64
-        messages = 8 * self.most_pieces + (payload // self._longest)
+        messages = 8 * self.most_pieces + payload // max(self._longest, 1)
         self.plan = Plan(payload + messages, messages)
         self.new = cython.cast(cython.p_uchar, _memory(self.fresh.reshape(-1).data))
         self.old = cython.cast(cython.p_uchar, _memory(self._shadow.reshape(-1).data))
