@@ -139,7 +139,9 @@ def test_a_planner_that_knows_nothing_sends_everything(package, lose):
 
 def test_a_plan_counts_in_plain_numbers(package):
     glass, _ = blank()
+    glass.planner.fresh[2, 5] = 1
     plan = glass.planner.plan()
+    assert plan.changed == 1
     assert {type(number) for number in (plan.count, plan.cost, plan.changed)} == {int}
 
 

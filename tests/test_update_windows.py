@@ -167,6 +167,12 @@ def test_a_diagonal_of_greys_costs_no_bounding_window(package):
     assert planner.plan().cost < 800
 
 
+def test_every_byte_of_a_cell_that_changes_is_counted(package):
+    panel = Panel(controller(9, 9, FOURS))
+    panel.planner.fresh[4, 6:8] = 1
+    assert panel.planner.plan().changed == 2
+
+
 def test_windows_are_filled_down_where_that_pays_for_the_switch():
     """A column and one cell beside its top: across, the cells beside it would go out too."""
     panel = Panel(controller(8, 20, PAIRS))
