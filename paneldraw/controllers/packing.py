@@ -82,12 +82,12 @@ def pack_nibbles(levels: Any, max_level: cython.int, packed: Any) -> None:
         Where the rows go, from the top.
     """
     source, target, nibbles = _rectangle(levels), _rectangle(packed), _rectangle(_NIBBLES[max_level]).start
-    pixels, pairs, step = source.start, target.start, source.across
+    pixels, pairs, step, width = source.start, target.start, source.across, target.width
     for y in range(target.height):
-        left = y * source.down
-        for pair in range(y * target.width, (y + 1) * target.width):
-            pairs[pair] = nibbles[pixels[left]] << 4 | nibbles[pixels[left + step]]
-            left += 2 * step
+        row, first = y * source.down, y * width
+        for x in range(width):
+            left, right = pixels[row + 2 * x * step], pixels[row + (2 * x + 1) * step]
+            pairs[first + x] = nibbles[left] << 4 | nibbles[right]
 
 
 _NIBBLES = {
