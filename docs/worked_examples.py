@@ -48,7 +48,8 @@ def excerpt(file: str, name: str, shown: str) -> str:
     source = (PAGE.parent / file).read_text(encoding="utf-8")
     node: Any = ast.parse(source)
     for part in name.split("."):
-        node = next(child for child in node.body if getattr(child, "name", "") == part)
+        defined = (child for child in ast.walk(node) if isinstance(child, (ast.FunctionDef, ast.ClassDef)))
+        node = next(child for child in defined if child.name == part and child is not node)
     lines = textwrap.dedent("\n".join(source.splitlines()[node.lineno - 1 : node.end_lineno])).splitlines()
     wanted = [line.strip() for line in shown.strip().splitlines()]
     stripped = [line.strip() for line in lines]

@@ -13,7 +13,7 @@ if not _compiled.COMPILED:
 
 from paneldraw.framebuffer import Framebuffer
 from paneldraw.raster.cone import ConeFilter
-from paneldraw.raster.supersample import Supersample
+from paneldraw.raster.coverage import Supersample
 
 if TYPE_CHECKING:
     from paneldraw.panel import Panel, open_panel

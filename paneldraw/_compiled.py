@@ -8,27 +8,19 @@ from pathlib import Path
 #: In the order in which they can be imported.
 MODULES = (
     "paneldraw.raster.surface",
-    "paneldraw.raster.supersample",
-    "paneldraw.raster.lines",
-    "paneldraw.raster.thick",
+    "paneldraw.raster.paint",
     "paneldraw.raster.cone",
-    "paneldraw.raster.boundaries",
-    "paneldraw.raster.filtered",
-    "paneldraw.raster.polygons",
-    "paneldraw.raster.strokes",
-    "paneldraw.raster.outlines",
-    "paneldraw.raster.curves",
-    "paneldraw.raster.chords",
-    "paneldraw.raster.cuts",
-    "paneldraw.raster.rounds",
-    "paneldraw.raster.round_contours",
-    "paneldraw.raster.masks",
+    "paneldraw.raster.coverage",
+    "paneldraw.raster.blit",
+    "paneldraw.raster.glyphs",
+    "paneldraw.raster.line",
+    "paneldraw.raster.circle",
+    "paneldraw.raster.thick_line",
+    "paneldraw.raster.disc",
+    "paneldraw.raster.polygon",
+    "paneldraw.raster.stroke",
     "paneldraw.framebuffer.arguments",
-    "paneldraw.framebuffer.paths",
-    "paneldraw.framebuffer.lines",
-    "paneldraw.framebuffer.polygons",
-    "paneldraw.framebuffer.rounds",
-    "paneldraw.framebuffer.shapes",
+    "paneldraw.framebuffer.painter",
     "paneldraw.framebuffer.framebuffer",
     "paneldraw.controllers.packing",
     "paneldraw.update.order",
@@ -36,6 +28,9 @@ MODULES = (
     "paneldraw.update.windows",
     "paneldraw.update.planner",
 )
+
+#: What Cython's code needs at run time, memoryviews above all: once, beside the modules that use it.
+RUNTIME = "paneldraw._runtime"
 
 PACKAGE = Path(__file__).parent
 
@@ -47,4 +42,4 @@ def _has_compiled_form(name: str) -> bool:
 
 #: Whether this install runs compiled. One module without a compiled form, and all run as plain Python:
 #: a compiled module calls the others in C.
-COMPILED = all(map(_has_compiled_form, MODULES))
+COMPILED = all(map(_has_compiled_form, (RUNTIME, *MODULES)))

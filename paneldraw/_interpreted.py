@@ -49,8 +49,10 @@ class _StandIn(ModuleType):
         return type("struct", (), dict.fromkeys(fields, 0))
 
     @staticmethod
-    def exceptval(_value: Any = None, check: bool = False) -> _Anything:
+    def _decorator(*_choices: Any, **_more: Any) -> _Anything:
         return _Anything()
+
+    annotation_typing = exceptval = freelist = auto_pickle = binding = _decorator
 
     def __getattr__(self, name: str) -> _Anything:
         if name.startswith("__"):
@@ -75,7 +77,8 @@ class _Lender(importlib.abc.MetaPathFinder, importlib.abc.Loader):
         name = spec.name.removeprefix("cython.cimports.").removeprefix("libc.")
         if name == "math" or name.startswith("paneldraw."):
             alias = ModuleType(spec.name)
-            alias.__dict__.update(vars(importlib.import_module(name)))
+            # Only C's math has a rint.
+            alias.__dict__.update(vars(importlib.import_module(name)), rint=round)
             return alias
         return _StandIn(spec.name)
 

@@ -5,9 +5,12 @@ from __future__ import annotations
 import contextlib
 import errno
 import importlib.metadata
+import json
 import os
 import platform
 import re
+import shlex
+import sys
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -76,7 +79,34 @@ def describe(panel: Panel) -> str:
 def _speed() -> str:
     from ._compiled import COMPILED
 
-    return "compiled" if COMPILED else "interpreted, which is slow; install a C compiler and then paneldraw again"
+    return "compiled" if COMPILED else f"interpreted, which is slow; install a C compiler, then run: {rebuild()}"
+
+
+def rebuild() -> str:
+    """Return the command that compiles this install where there is a C compiler now.
+
+    What was built without one is in pip's cache, and pip would install that again; a wheel from elsewhere was not built
+    here at all.
+    """
+    command = [sys.executable, "-m", "pip", "install", "--force-reinstall", "--no-deps", "--no-cache-dir"]
+    return shlex.join([*command, "--no-binary", "paneldraw", *_origin()])
+
+
+def _origin() -> list[str]:
+    """Return what pip was asked to install, as arguments for it."""
+    try:
+        recorded = importlib.metadata.distribution("paneldraw").read_text("direct_url.json")
+    except importlib.metadata.PackageNotFoundError:
+        return ["--editable", str(Path(__file__).parent.parent)]
+    if recorded is None:
+        return ["paneldraw"]
+    origin = json.loads(recorded)
+    url = origin["url"]
+    if "vcs_info" in origin:
+        return [f"{origin['vcs_info']['vcs']}+{url}@{origin['vcs_info']['commit_id']}"]
+    if origin.get("dir_info", {}).get("editable"):
+        return ["--editable", url]
+    return [url]
 
 
 def _machine() -> str:

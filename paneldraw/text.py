@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
+from paneldraw.raster.glyphs import Glyphs
+
 if TYPE_CHECKING:
     from numpy.typing import NDArray
     from PIL import ImageFont
@@ -64,6 +66,9 @@ class Font:
     advance: int
     baseline: int
     _face: _Face = field(repr=False)
+    # Of a font of one bit a pixel that sets its characters side by side: them, and how many times larger they are here.
+    _glyphs: Glyphs | None = field(default=None, repr=False)
+    _factor: int = field(default=1, repr=False)
 
     @staticmethod
     def builtin() -> Font:
@@ -163,6 +168,8 @@ class Font:
             self.advance * factor,
             (self.baseline + 1) * factor - 1,
             _ScaledFace(self._face, factor),
+            self._glyphs,
+            self._factor * factor,
         )
 
     def glyph(self, char: str) -> NDArray[np.uint8]:
@@ -235,21 +242,32 @@ def render(text: str, font: Font | None = None, anchor: str = "lt") -> tuple[NDA
     >>> coverage.shape, dx, dy
     ((8, 17), -16, -7)
     """
-    if anchor not in _ANCHORS:
-        raise ValueError(f"anchor must be one of l, m, r and one of a, t, m, s, b, d, such as 'lt', not {anchor!r}")
-    font = _builtin() if font is None else font
-    if not isinstance(font, Font):
-        raise TypeError(f"font must be a Font, such as Font.truetype(path, size), not {type(font).__name__}")
-    horizontal, vertical = anchor[0], anchor[1]
+    font = font_of(font)
+    offset(anchor, 0, 0, 0)
     lines = _lines(text)
     if len(lines) == 1:
         coverage = np.ascontiguousarray(font._face.line(lines[0]))
     else:
-        coverage = _stack([font._face.line(line) for line in lines], font.height, horizontal)
+        coverage = _stack([font._face.line(line) for line in lines], font.height, anchor[0])
     height, width = coverage.shape
-    dx = -_reach(horizontal, width) if horizontal != "l" else 0
-    dy = -font.baseline if vertical == "s" else -_reach(vertical, height)
-    return coverage, dx, dy
+    return coverage, *offset(anchor, width, height, font.baseline)
+
+
+def font_of(font: Any) -> Font:
+    """The font that an argument means."""
+    if font is None:
+        return _builtin()
+    if not isinstance(font, Font):
+        raise TypeError(f"font must be a Font, such as Font.truetype(path, size), not {type(font).__name__}")
+    return font
+
+
+def offset(anchor: str, width: int, height: int, baseline: int) -> tuple[int, int]:
+    """From the point where a text is anchored to the top-left pixel of its box of `width` x `height` pixels."""
+    if anchor not in _ANCHORS:
+        raise ValueError(f"anchor must be one of l, m, r and one of a, t, m, s, b, d, such as 'lt', not {anchor!r}")
+    horizontal, vertical = anchor[0], anchor[1]
+    return -_reach(horizontal, width), -baseline if vertical == "s" else -_reach(vertical, height)
 
 
 def _lines(text: str) -> list[str]:
@@ -276,10 +294,10 @@ def _stack(covers: list[NDArray[np.uint8]], height: int, side: str) -> NDArray[n
 
 
 class _Indices(dict[int, int]):
-    """Code point to column of the glyph table; whatever the font does not have is its replacement."""
+    """Code point to column of the glyph table; the first one is for whatever the font does not have."""
 
     def __missing__(self, code: int) -> int:
-        return self[ord(REPLACEMENT)]
+        return 0
 
 
 class _CellFace:
@@ -354,11 +372,16 @@ def _builtin() -> Font:
     height, advance = 8, 6
     indices, table = _read_picture(GLYPHS, height, advance)
     gap = 1
-    return Font(f"{advance}x{height}", advance - gap, height, advance, height - 2, _CellFace(indices, table, gap))
+    glyphs = Glyphs(list(indices), table.transpose(1, 0, 2), [advance] * len(indices), gap)
+    face = _CellFace(indices, table, gap)
+    return Font(f"{advance}x{height}", advance - gap, height, advance, height - 2, face, glyphs)
 
 
 def _read_picture(picture: str, height: int, advance: int) -> tuple[_Indices, NDArray[np.uint8]]:
-    """Read a font drawn in ``#`` and ``.``: bands of cells, each under a line that names their characters."""
+    """Read a font drawn in ``#`` and ``.``: bands of cells, each under a line that names their characters.
+
+    The picture of what is missing comes first, whatever its place in the drawing.
+    """
     rows = picture.strip("\n").split("\n")
     names: list[str] = []
     bands: list[NDArray[Any]] = []
@@ -366,5 +389,6 @@ def _read_picture(picture: str, height: int, advance: int) -> tuple[_Indices, ND
         cells = np.frombuffer("".join(row + " " for row in rows[top + 1 : top + 1 + height]).encode(), np.uint8)
         bands.append((cells == ord("#")).reshape(height, -1, advance + 1)[:, :, :advance])
         names.extend(rows[top][2 :: advance + 1])
-    indices = _Indices((ord(name), index) for index, name in enumerate(names))
-    return indices, np.concatenate(bands, axis=1).astype(np.uint8) * np.uint8(255)
+    order = sorted(range(len(names)), key=lambda column: names[column] != REPLACEMENT)
+    indices = _Indices((ord(names[column]), index) for index, column in enumerate(order))
+    return indices, np.concatenate(bands, axis=1)[:, order].astype(np.uint8) * np.uint8(255)

@@ -3,16 +3,21 @@
 from __future__ import annotations
 
 import errno
+import importlib.metadata
 import itertools
+import json
 import re
+import shlex
 import signal
+import sys
+from pathlib import Path
 from urllib.parse import urlsplit
 
 import numpy as np
 import pytest
 import smbus2
 
-from paneldraw import diagnostics, simulator
+from paneldraw import _compiled, diagnostics, simulator
 from paneldraw.cli import main
 from paneldraw.framebuffer import Framebuffer
 
@@ -202,3 +207,45 @@ def test_the_other_address_is_named(machine, capsys):
     machine[1] = ("bus", simulator.I2CBus({0x3D: simulator.SSD1306()}))
     assert main(["text", "hi", "--panel", "i2c://1/0x3c"]) == 1
     assert "found 0x3D instead" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("recorded", "asked"),
+    [
+        (None, ["paneldraw"]),
+        ({"url": "file:///home/me/paneldraw", "dir_info": {}}, ["file:///home/me/paneldraw"]),
+        ({"url": "file:///a%20b", "dir_info": {"editable": True}}, ["--editable", "file:///a%20b"]),
+        (
+            {"url": "https://example.org/p.git", "vcs_info": {"vcs": "git", "commit_id": "ba17"}},
+            ["git+https://example.org/p.git@ba17"],
+        ),
+    ],
+)
+def test_the_command_that_compiles_installs_from_where_it_came(monkeypatch, recorded, asked):
+    class Distribution:
+        def read_text(self, name):
+            assert name == "direct_url.json"
+            return None if recorded is None else json.dumps(recorded)
+
+    monkeypatch.setattr(importlib.metadata, "distribution", lambda name: Distribution())
+    words = shlex.split(diagnostics.rebuild())
+    assert words[:4] == [sys.executable, "-m", "pip", "install"]
+    assert {"--force-reinstall", "--no-cache-dir", "--no-binary", "--no-deps"} <= set(words)
+    assert words[-len(asked) :] == asked
+
+
+def test_what_is_not_installed_is_compiled_where_it_lies(monkeypatch):
+    def missing(name):
+        raise importlib.metadata.PackageNotFoundError(name)
+
+    monkeypatch.setattr(importlib.metadata, "distribution", missing)
+    assert shlex.split(diagnostics.rebuild())[-2:] == ["--editable", str(Path(diagnostics.__file__).parent.parent)]
+
+
+def test_info_tells_an_interpreted_install_how_to_compile(monkeypatch):
+    monkeypatch.setattr(_compiled, "COMPILED", False)
+    told = dict(diagnostics.info())["drawing"]
+    assert told.startswith("interpreted")
+    assert told.endswith(f"run: {diagnostics.rebuild()}")
+    monkeypatch.setattr(_compiled, "COMPILED", True)
+    assert dict(diagnostics.info())["drawing"] == "compiled"

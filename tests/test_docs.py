@@ -19,7 +19,7 @@ import worked_examples as examples
 from PIL import Image
 
 from paneldraw import ConeFilter, Framebuffer, Supersample
-from paneldraw.raster.strokes import CAPS, JOINS
+from paneldraw.raster.stroke import CAPS, JOINS
 from paneldraw.raster.surface import OPS
 
 DOCS = Path(__file__).parent.parent / "docs"
@@ -58,12 +58,17 @@ def test_every_drawing_call_is_in_the_gallery(call):
     assert call in NOT_DRAWING or re.search(rf"\bfb\.{call}\(", CODE)
 
 
-WORDS = "even-odd nonzero dda bayer floyd-steinberg corner box gaussian radius closed dash key palette"
+WORDS = "even-odd nonzero covered shared dda bayer floyd-steinberg corner box gaussian radius closed dash key palette"
 
 
 @pytest.mark.parametrize("word", [*OPS, *CAPS, *JOINS, *WORDS.split()])
 def test_every_option_is_in_the_gallery(word):
     assert f'"{word}"' in CODE or f"{word}=" in CODE
+
+
+@pytest.mark.parametrize("call", ["arc", "circle", "line", "poly", "polyline", "rect"])
+def test_a_dash_of_every_call_that_takes_one_is_in_the_gallery(call):
+    assert re.search(rf"\bfb\.{call}\(.*dash=", CODE)
 
 
 @pytest.mark.parametrize("page", ["gallery.md", "algorithms.md"])

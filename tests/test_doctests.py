@@ -113,8 +113,8 @@ def test_the_main_objects_are_among_them():
     assert {
         "paneldraw.framebuffer.framebuffer.Framebuffer",
         "paneldraw.framebuffer.framebuffer.Framebuffer.text",
-        "paneldraw.framebuffer.lines.Lines.line",
-        "paneldraw.raster.supersample.Supersample",
+        "paneldraw.framebuffer.framebuffer.Framebuffer.line",
+        "paneldraw.raster.coverage.Supersample",
         "paneldraw.text.Font",
         "paneldraw.text.render",
     } <= set(WITH_EXAMPLE)

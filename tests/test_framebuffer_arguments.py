@@ -222,6 +222,14 @@ def test_a_framebuffer_that_was_never_made_is_an_error_not_a_crash(package):
     for call, arguments in PAINTING.items():
         with pytest.raises(AttributeError):
             getattr(fb, call)(**arguments)
-    for call in (lambda: fb.width, lambda: fb.fill(1), lambda: fb.pixel(0, 0), lambda: fb.image(ONE_PIXEL)):
+    for call in (
+        lambda: fb.width,
+        lambda: fb.fill(1),
+        lambda: fb.pixel(0, 0),
+        lambda: fb.image(ONE_PIXEL),
+        lambda: fb.blit(ONE_PIXEL, 0, 0),
+        lambda: fb.scroll(1, 1),
+        lambda: package.Framebuffer(2, 2).blit(fb, 0, 0),
+    ):
         with pytest.raises(AttributeError):
             call()

@@ -93,7 +93,7 @@ def test_without_a_compiler_it_runs_interpreted_and_says_so(without_compiler):
     assert not list(without_compiler.folder.glob("paneldraw/**/*.so"))
     info = without_compiler(".venv/bin/paneldraw info")
     assert info.returncode == 0, info.stderr
-    assert re.search(r"^drawing: +interpreted", info.stdout, re.M)
+    assert re.search(r"^drawing: +interpreted.* run: \S+ -m pip install .*--editable file://", info.stdout, re.M)
 
 
 def test_compiled_and_interpreted_installs_draw_the_same(without_compiler):
@@ -183,3 +183,27 @@ def test_public_names():
         assert getattr(paneldraw, name).__name__ == name
     with pytest.raises(AttributeError, match="no attribute 'panels'"):
         paneldraw.panels  # noqa: B018
+
+
+@pytest.mark.thorough
+def test_the_command_that_info_gives_compiles_what_pip_kept_interpreted(without_compiler, tmp_path):
+    """As a user meets it: installed from an index, here a folder, where no compiler was, with one there later."""
+    tools = ".venv/bin/python -m venv build && build/bin/pip install 'setuptools>=77'"
+    sdist = f"from setuptools.build_meta import build_sdist; build_sdist('{tmp_path}')"
+    done = without_compiler(f'{tools} && build/bin/python -c "{sdist}"')
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert list(tmp_path.glob("paneldraw-*.tar.gz"))
+
+    def run(command, **names):
+        environment = os.environ | {"PIP_FIND_LINKS": str(tmp_path), "PIP_CACHE_DIR": str(tmp_path / "cache")} | names
+        done = subprocess.run(command, cwd=tmp_path, shell=True, env=environment, capture_output=True, text=True)
+        assert done.returncode == 0, done.stdout + done.stderr
+        return done.stdout
+
+    run(f"'{sys.executable}' -m venv fresh && fresh/bin/pip install paneldraw", CC="/bin/false")
+    assert list((tmp_path / "cache").rglob("paneldraw-*.whl"))
+    run("fresh/bin/pip install --force-reinstall --no-deps paneldraw")
+    told = re.search(r"^drawing: +interpreted.* run: (.*)$", run("fresh/bin/paneldraw info"), re.M)
+    assert told, "pip does not keep what it built any more"
+    run(told[1])
+    assert re.search(r"^drawing: +compiled$", run("fresh/bin/paneldraw info"), re.M)

@@ -1,4 +1,3 @@
-# cython: language_level=3, boundscheck=False, wraparound=False, cdivision=True
 """What the arguments of a drawing call mean, and what is said of those that mean nothing."""
 
 from __future__ import annotations
@@ -6,88 +5,129 @@ from __future__ import annotations
 import math
 import operator
 from array import array
-from typing import TYPE_CHECKING, Any, SupportsFloat, SupportsIndex, TypeAlias
+from typing import TYPE_CHECKING, Any
 
 import cython
 import numpy as np
+from cython.cimports.cpython.buffer import PyObject_CheckBuffer
 from cython.cimports.cpython.long import PyLong_AsLongLongAndOverflow
 from cython.cimports.cpython.memoryview import PyMemoryView_GET_BUFFER
-from numpy.typing import NDArray
+from cython.cimports.paneldraw.raster.floors import floored
 
-if cython.compiled:
-    from cython.cimports.paneldraw.raster._floors import floored
-else:  # classes cimported in the .pxd, which leaves a user's type checker these
-    from paneldraw.raster._floors import floored
-    from paneldraw.raster.cone import ConeFilter
-    from paneldraw.raster.supersample import Supersample
+from paneldraw.raster.clip import REACH
+from paneldraw.raster.cone import ConeFilter
+from paneldraw.raster.coverage import Supersample
 
 if TYPE_CHECKING:
     from types import EllipsisType
+    from typing import TypeAlias
 
-    # Cython would take a plain `float` or `int` in a signature for a type of its own, and `str` for str alone.
-    Real: TypeAlias = SupportsFloat | SupportsIndex
-    Int: TypeAlias = int
-    Str: TypeAlias = str
-    Level: TypeAlias = SupportsIndex | None
     Antialias: TypeAlias = Supersample | ConeFilter | None
     AntialiasOrDefault: TypeAlias = Antialias | EllipsisType
 
 LARGEST = 65536
 
-# Numbers within +-NEAR are handled in 64-bit arithmetic, others in Python's; FAR stands for those.
-NEAR = cython.declare(cython.longlong, 1 << 29)
+# What stands for a number of pixels beyond +-REACH, which Python's integers are for.
 FAR = cython.declare(cython.longlong, 1 << 62)
+_REACH = cython.declare(cython.longlong, REACH)
 
-# Pixels that are handled in 256ths in 64-bit arithmetic.
-FIXED_REACH = cython.declare(cython.longlong, 1 << 18)
+# More pixels than a text or picture has.
+BEYOND = cython.declare(cython.longlong, 1 << 40)
 
 # Dashes longer than any path, in 256ths.
 _ENDLESS = 1 << 100
 
-ALIASED = Supersample(1)
+if not cython.compiled:
+
+    def is_word(value, word):
+        """Whether a choice is a certain word, the one that most calls make."""
+        return type(value) is str and value == word
+
+    def quick(value):
+        """The number, if it is an int within +-REACH, else FAR."""
+        return value if type(value) is int and -REACH <= value <= REACH else FAR
 
 
-@cython.cfunc
-@cython.exceptval(check=False)
-def quick(value: Any) -> cython.longlong:
-    """`value`, if it is an int within +-NEAR, else FAR."""
-    if type(value) is not int:
-        return FAR
+def _quick(value, unit):
+    """`value` in 1 / unit of a pixel, halves upward, if it is an int or a float within +-REACH, else FAR."""
+    number: cython.longlong
     overflow: cython.int = 0
-    number: cython.longlong = (
-        PyLong_AsLongLongAndOverflow(value, cython.address(overflow)) if cython.compiled else value
-    )
-    if overflow == 0 and -NEAR <= number <= NEAR:
-        return number
+    if type(value) is int:
+        number = quick(value)
+        if number != FAR:
+            return number * unit
+        number = PyLong_AsLongLongAndOverflow(value, cython.address(overflow)) if cython.compiled else value
+        return number * unit if overflow == 0 and -_REACH <= number <= _REACH else FAR
+    if type(value) is float:
+        exact: cython.double = value
+        if -_REACH <= exact <= _REACH:
+            # Not floor(exact + 0.5): that sum may itself be rounded.
+            exact *= unit
+            number = floored(exact)
+            return number + (exact - number >= 0.5)
     return FAR
 
 
-@cython.cfunc
-@cython.exceptval(check=False)
-def quick_256ths(value: Any) -> cython.longlong:
-    """`value` in 256ths, if it is an int or a float within +-FIXED_REACH, else FAR."""
-    if type(value) is float:
-        exact: cython.double = value
-        if not -FIXED_REACH <= exact <= FIXED_REACH:
-            return FAR
-        exact *= 256
-        below: cython.longlong = floored(exact)
-        return below + (exact - below >= 0.5)
+def near_pixel(name, value):
+    """The pixel nearest to a coordinate, halves upward; of those beyond +-REACH that one."""
     number: cython.longlong = quick(value)
-    return number * 256 if -FIXED_REACH <= number <= FIXED_REACH else FAR
+    return number if number != FAR else min(max(whole(name, value), -REACH), REACH)
 
 
-@cython.cfunc
-def quick_rows(
-    source: Any, columns: cython.Py_ssize_t, flat: cython.bint, unit: cython.longlong, reach: cython.longlong
-) -> Any:
+def top_left(name, value):
+    """As `near_pixel`, of a text or picture, which may reach into the square from afar: up to +-BEYOND."""
+    number: cython.longlong = quick(value)
+    return number if number != FAR else min(max(whole(name, value), -BEYOND), BEYOND)
+
+
+def coordinate(name, value, unit):
+    """The nearest number of 1 / unit of a pixel, halves upward; FAR if it is beyond +-REACH pixels."""
+    number: cython.longlong = quick(value)
+    if number != FAR:
+        return number * unit
+    number = _quick(value, unit)
+    if number == FAR:
+        exact: object = nearest(name, value, unit)
+        if -REACH * unit <= exact <= REACH * unit:
+            number = exact
+    return number
+
+
+def extent(name, value, unit):
+    """As `coordinate`, of what may not be negative."""
+    number: cython.longlong = quick(value)
+    if 0 <= number != FAR:
+        return number * unit
+    if real(name, value) < 0:
+        raise ValueError(f"{name} must not be negative, and is {value}")
+    return coordinate(name, value, unit)
+
+
+def level(surface, c):
+    """The level that `c` means on a surface: the highest for None."""
+    number: cython.longlong
+    if c is None:
+        return surface.max_level
+    number = _quick(c, 1) if type(c) is int else FAR
+    if number == FAR:
+        if isinstance(c, float):
+            raise TypeError("c must be a whole number, and is a float; round it first")
+        number = min(max(size("c", c), -1), 256)
+    if not 0 <= number <= surface.max_level:
+        raise ValueError(f"c must be a level from 0 to {surface.max_level}, not {c}")
+    return cython.cast(cython.int, number)
+
+
+def _quick_rows(source, columns, flat, unit):
     """The rows of an array of numbers, as a bytearray of int64, in 1 / unit of a pixel to the nearest, halves upward.
 
     An array is what exports a buffer of machine numbers, of shape (n, columns) or, where that is allowed, `flat`, with
-    one row behind the other. None if `source` is nothing of the kind or holds a number beyond +-reach: then others look
+    one row behind the other. None if `source` is nothing of the kind or holds a number beyond +-REACH: then others look
     what it is.
     """
-    if not cython.compiled:
+    row: cython.Py_ssize_t
+    column: cython.Py_ssize_t
+    if not cython.compiled or not PyObject_CheckBuffer(source):
         return None
     try:
         memory = memoryview(source)
@@ -112,12 +152,10 @@ def quick_rows(
     if rows > cython.cast(cython.Py_ssize_t, cython.cast(cython.size_t, -1) >> 1) // (8 * columns):
         raise MemoryError
     numbers = bytearray(8 * columns * rows)
-    to: cython.p_longlong = pointer_to_int64(numbers)
-    row: cython.Py_ssize_t
-    column: cython.Py_ssize_t
+    to: cython.p_longlong = int64s(numbers)
     for row in range(rows):
         for column in range(columns):
-            if not _read(start + row * down + column * across, kind, unit, reach, to + row * columns + column):
+            if not _read(start + row * down + column * across, kind, unit, to + row * columns + column):
                 return None
     return numbers
 
@@ -140,13 +178,8 @@ def _size_of(kind: cython.char) -> cython.Py_ssize_t:
     return cython.sizeof(cython.float) if kind == b"f" else 0
 
 
-@cython.cfunc
-@cython.inline
-@cython.exceptval(check=False)
-def _read(
-    at: cython.p_char, kind: cython.char, unit: cython.longlong, reach: cython.longlong, to: cython.p_longlong
-) -> cython.bint:
-    """Write the number at an address, of a kind that has a size; return whether that was possible."""
+def _read(at, kind, unit, to):
+    """Write the number at an address, of a kind that has a size; return whether it is within +-REACH."""
     number: cython.longlong
     if kind == b"q":
         number = cython.cast(cython.p_longlong, at)[0]
@@ -160,73 +193,112 @@ def _read(
         exact: cython.double = (
             cython.cast(cython.p_double, at)[0] if kind == b"d" else cython.cast(cython.p_float, at)[0]
         )
-        if not -reach <= exact <= reach:
+        if not -_REACH <= exact <= _REACH:
             return False
         exact *= unit
         number = floored(exact)
         to[0] = number + (exact - number >= 0.5)
         return True
-    if not -reach <= number <= reach:
+    if not -_REACH <= number <= _REACH:
         return False
     to[0] = number * unit
     return True
 
 
+@cython.final
 @cython.cclass
-class Points:
-    """The points of a path as a call takes them, read into one array of numbers.
+class Numbers:
+    """Rows of numbers as a call takes them, in one array: points or segments, in 1 / unit of a pixel.
 
-    Parameters
+    Attributes
     ----------
-    name : str
-        What the call names them.
-    source : array_like
-        Pairs, shape (n, 2), or x and y in turn, as MicroPython's framebuf has them.
-    fixed : bool
-        Whether to read 256ths of a pixel or whole pixels.
+    values, count : pointer to int64, int
+        The numbers and how many rows they make.
+    exact : list of int or None
+        The same as Python's integers, if one of them is beyond +-REACH pixels; then `values` are not filled.
     """
 
-    def __init__(self, name: Any, source: Any, fixed: cython.bint) -> None:
+    def read(self, name, source, columns, unit, may_be_flat):
+        """Read them."""
         i: cython.Py_ssize_t
         number: cython.longlong
         self.exact = None
-        self.kept = quick_rows(source, 2, True, 256 if fixed else 1, FIXED_REACH if fixed else NEAR)
-        if self.kept is not None:
-            self.values = pointer_to_int64(self.kept)
-            self.count = len(self.kept) // 16
+        self.memory = _quick_rows(source, columns, may_be_flat and columns == 2, unit)
+        if self.memory is not None:
+            self.values = int64s(self.memory)
+            self.count = len(self.memory) // (8 * columns)
             return
-        items = in_turn(name, source)
-        self.count = len(items) // 2
+        items: list = in_turn(name, source) if may_be_flat and columns == 2 else _in_rows(name, source, columns)
+        self.count = len(items) // columns
         if cython.compiled:
-            self.kept = bytearray(8 * len(items))
-            self.values = pointer_to_int64(self.kept)
+            self.memory = bytearray(8 * len(items))
+            self.values = int64s(self.memory)
         else:
             self.values = [0] * len(items)
         for i in range(len(items)):
-            number = quick_256ths(items[i]) if fixed else quick(items[i])
+            number = _quick(items[i], unit)
             if number == FAR:
-                exact = to_256ths(name, items[i]) if fixed else whole(name, items[i])
-                if abs(exact) > (FIXED_REACH * 256 if fixed else NEAR):
-                    self.exact = [to_256ths(name, item) if fixed else whole(name, item) for item in items]
+                exact: object = nearest(name, items[i], unit)
+                if abs(exact) > REACH * unit:
+                    self.exact = [nearest(name, item, unit) for item in items]
                     return
                 number = exact
             self.values[i] = number
 
 
-def in_turn(name: str, source: Any) -> list[Any]:
+def points_of(name, source, unit):
+    """An array_like of points, shape (n, 2) or with x and y in turn, as MicroPython's framebuf has them."""
+    numbers: Numbers = Numbers.__new__(Numbers)
+    numbers.read(name, source, 2, unit, True)
+    return numbers
+
+
+def rows_of(name, source, columns, unit):
+    """An array_like of shape (n, columns)."""
+    numbers: Numbers = Numbers.__new__(Numbers)
+    numbers.read(name, source, columns, unit, False)
+    return numbers
+
+
+def in_turn(name, source):
     """The points of an array_like as a list of x and y in turn."""
-    items = source.tolist() if hasattr(source, "tolist") else source
+    items = _listed(source)
     try:
         items = list(items)
-        if items and isinstance(items[0], (list, tuple, np.ndarray)):
+        if items and _is_row(items[0]):
             items = [number for x, y in items for number in (x, y)]
-        if items and isinstance(items[0], (list, tuple, np.ndarray)):
+        if items and _is_row(items[0]):
             raise ValueError
     except (TypeError, ValueError):
         raise ValueError(f"{name} must hold points (x, y), as an array of shape (n, 2) or x and y in turn") from None
     if len(items) % 2:
         raise ValueError(f"{name} must hold an x and a y for each point, and holds {len(items)} numbers")
     return items
+
+
+def _in_rows(name, source, columns):
+    """The numbers of an array_like of shape (n, columns), one row behind the other."""
+    items = _listed(source)
+    try:
+        rows = [list(row) if _is_row(row) else None for row in items]
+    except TypeError:
+        rows = [None]
+    if isinstance(source, str):
+        raise TypeError(f"{name} must hold numbers, not a string")
+    if not all(row is not None and len(row) == columns for row in rows):
+        raise ValueError(f"{name} must have the shape (n, {columns}): rows of {columns} numbers")
+    return [number for row in rows for number in row]
+
+
+def _listed(source):
+    """The items of an array as a list of Python's numbers; anything else as it is."""
+    if isinstance(source, memoryview):
+        source = np.asarray(source)
+    return source.tolist() if hasattr(source, "tolist") else source
+
+
+def _is_row(item):
+    return isinstance(item, (list, tuple)) or (hasattr(item, "tolist") and getattr(item, "ndim", 0) > 0)
 
 
 def real(name: str, value: Any) -> int | float:
@@ -248,25 +320,20 @@ def real(name: str, value: Any) -> int | float:
     return number
 
 
-def whole(name: str, value: Any) -> int:
-    """The whole number nearest to `value`, halves upward."""
-    number = real(name, value)
-    return number if isinstance(number, int) else _nearest(number)
-
-
-def to_256ths(name: str, value: Any) -> int:
-    """The nearest number of 256ths of a pixel, halves upward."""
+def nearest(name: str, value: Any, unit: int) -> int:
+    """The nearest number of 1 / unit of a pixel, halves upward, of any size."""
     number = real(name, value)
     if isinstance(number, int):
-        return number * 256
-    fraction, whole_pixels = math.modf(number)
-    return int(whole_pixels) * 256 + _nearest(fraction * 256)
+        return number * unit
+    fraction, pixels = math.modf(number)
+    fraction *= unit
+    below = math.floor(fraction)
+    return int(pixels) * unit + below + (fraction - below >= 0.5)
 
 
-def _nearest(number: float) -> int:
-    # Not floor(number + 0.5): that sum may itself be rounded.
-    below = math.floor(number)
-    return below + (number - below >= 0.5)
+def whole(name: str, value: Any) -> int:
+    """The whole number nearest to `value`, halves upward."""
+    return nearest(name, value, 1)
 
 
 def size(name: str, value: Any) -> int:
@@ -277,31 +344,7 @@ def size(name: str, value: Any) -> int:
         raise TypeError(f"{name} must be a whole number, not {type(value).__name__}") from None
 
 
-def not_negative(name: str, number: int) -> int:
-    if number < 0:
-        raise ValueError(f"{name} must not be negative, and is {number}")
-    return number
-
-
-def as_samples(antialias: Any) -> Supersample:
-    """A call's anti-aliasing as the samples to take: one a pixel for None and for a filter, which takes none."""
-    if antialias is None or isinstance(antialias, ConeFilter):
-        return ALIASED
-    if not isinstance(antialias, Supersample):
-        raise TypeError(
-            f"antialias must be None, a Supersample, such as Supersample(4), or a ConeFilter, not {antialias!r}"
-        )
-    return antialias
-
-
-def length(name: str, value: Any, unit: Any) -> int:
-    """`value`, which may not be negative, to the nearest 1 / unit of a pixel, where unit is 1 or 256."""
-    if real(name, value) < 0:
-        raise ValueError(f"{name} must not be negative, and is {value}")
-    return whole(name, value) if unit == 1 else to_256ths(name, value)
-
-
-def choice(name: str, value: Any, choices: dict[str, Int]) -> Int:
+def choice(name: str, value: Any, choices: dict[str, int]) -> int:
     """The number by which the raster modules know one of a few words."""
     try:
         return choices[value]
@@ -309,12 +352,20 @@ def choice(name: str, value: Any, choices: dict[str, Int]) -> Int:
         raise ValueError(f"{name} must be one of {', '.join(map(repr, choices))}, not {value!r}") from None
 
 
-def dash_lengths(dash: Any) -> list[Int]:
+def check_antialias(antialias: Any) -> None:
+    """Refuse what is no way to anti-alias."""
+    if antialias is not None and not isinstance(antialias, (Supersample, ConeFilter)):
+        raise TypeError(
+            f"antialias must be None, a Supersample, such as Supersample(4), or a ConeFilter, not {antialias!r}"
+        )
+
+
+def dash_lengths(dash: Any) -> list[int]:
     """The lengths of a dash pattern in 256ths of a pixel, an even number of them; none for no pattern."""
     if dash is None:
         return []
     try:
-        lengths = [to_256ths("dash", length) for length in dash]
+        lengths = [nearest("dash", length, 256) for length in dash]
     except TypeError:
         raise TypeError(f"dash must be a sequence of lengths in pixels, such as (4, 2), not {dash!r}") from None
     if not lengths or min(lengths) < 256:
@@ -323,72 +374,32 @@ def dash_lengths(dash: Any) -> list[Int]:
     return lengths if len(lengths) % 2 == 0 else lengths + lengths
 
 
-def dash_steps(lengths: list[Int]) -> bytearray:
+def dash_steps(lengths: list[int] | None) -> bytearray:
     """The lengths of a pattern in whole pixels, as int64; those longer than any path that is near are cut."""
-    longest = (1 << 62) // max(len(lengths), 1)
+    lengths = lengths or []
+    longest = (1 << 60) // max(len(lengths), 1)
     return bytearray(array("q", [min((length + 128) >> 8, longest) for length in lengths]))
 
 
-@cython.cfunc
-def line_width(width: Any) -> Any:
+def line_width(width: Any) -> int:
     """A line's width in 256ths of a pixel."""
-    if type(width) is int and width == 1:
-        return 256
-    fixed = to_256ths("width", width)
+    fixed = nearest("width", width, 256)
     if fixed <= 0:
         raise ValueError(f"width must be at least 1/256 of a pixel, not {width}")
     return fixed
 
 
-def table(name: str, rows: Any, columns: int) -> NDArray[Any]:
-    """`rows` as an array of numbers of shape (n, columns)."""
-    try:
-        table = np.asarray(rows)
-    except ValueError:
-        raise ValueError(f"{name} must have the shape (n, {columns}), and its rows differ in length") from None
-    if table.size == 0:
-        return np.zeros((0, columns), np.int64)
-    if table.dtype.kind not in "biufO":
-        raise TypeError(f"{name} must hold numbers, not {table.dtype}")
-    if table.ndim != 2 or table.shape[1] != columns:
-        raise ValueError(f"{name} must have the shape (n, {columns}), not {table.shape}")
-    if table.dtype.kind == "f":
-        if not np.isfinite(table).all():
-            raise ValueError(f"{name} must be finite, and holds NaN or infinity")
-        # Between negative numbers or fractions, numpy makes floats of whole numbers too large for them.
-        if float(abs(table).max()) >= 1 << 53:
-            return np.asarray(rows, object)
-    return table
-
-
-def integers(table: NDArray[Any], unit: int, limit: int) -> bytearray | None:
-    """The numbers in 1 / unit pixels, to the nearest, as int64; None if one is beyond +-limit or of no C type."""
-    if table.dtype.kind == "O":
-        return None
-    if table.dtype.kind == "f":
-        table = table.astype(np.float64)
-    if len(table) and (table.max() > limit // unit or table.min() < -(limit // unit)):
-        return None
-    if table.dtype.kind == "f":
-        scaled = table * unit
-        table = np.floor(scaled)
-        table += scaled - table >= 0.5
-        unit = 1
-    return bytearray((table.astype(np.int64) * unit).tobytes())
-
-
-@cython.cfunc
-def pointer_to_int64(numbers: bytearray) -> cython.p_longlong:
+def int64s(memory):
     """The numbers that lie in a bytearray."""
     if cython.compiled:
-        return cython.cast(cython.p_longlong, cython.cast(cython.p_char, numbers))
-    return array("q", numbers)
+        kept: bytearray = memory
+        return cython.cast(cython.p_longlong, cython.cast(cython.p_char, kept))
+    return array("q", memory)
 
 
-@cython.cfunc
-def pointer_to_bytes(array: Any) -> cython.p_uchar:
-    """The bytes of a contiguous uint8 array."""
+def uint8s(memory):
+    """The bytes that lie in a bytearray."""
     if cython.compiled:
-        address: cython.size_t = array.__array_interface__["data"][0]
-        return cython.cast(cython.p_uchar, address)
-    return array.tobytes()
+        kept: bytearray = memory
+        return cython.cast(cython.p_uchar, cython.cast(cython.p_char, kept))
+    return memory

@@ -1,5 +1,17 @@
-from paneldraw.framebuffer.shapes cimport Shapes
+from paneldraw.framebuffer.painter cimport Painter
+from paneldraw.raster.surface cimport Surface
 
-cdef class Framebuffer(Shapes):
+cdef class Framebuffer:
     cdef readonly object pixels
     cdef readonly int depth
+    cdef Surface surface
+    cdef Painter painter
+    cdef tuple _whole
+    cdef readonly list _clips
+    cdef object __weakref__
+
+    cdef object _draw_on(self, Surface surface, object antialias)
+
+cdef Framebuffer _unmade()
+cdef object _surface_of(object source)
+cdef Surface _surface(Framebuffer fb)

@@ -1,45 +1,53 @@
-# cython: language_level=3, boundscheck=False, wraparound=False, cdivision=True, nonecheck=True
-"""The framebuffer: the pixels in memory, and pictures in and out."""
+# cython: annotation_typing=False, nonecheck=True
+"""The framebuffer: the pixels, and the drawing calls of a script.
+
+A call reads its arguments, says what it paints with, and leaves it to `raster` which pixels that are.
+"""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, SupportsIndex
+from math import isfinite
+from typing import TYPE_CHECKING, Any
 
 import cython
 import numpy as np
+from cython.cimports.paneldraw.framebuffer.arguments import FAR, is_word, level, near_pixel, quick, rows_of
+from cython.cimports.paneldraw.framebuffer.painter import Painter
+from cython.cimports.paneldraw.raster.surface import Surface
 
 from paneldraw.framebuffer import pictures
-from paneldraw.framebuffer.arguments import LARGEST, as_samples, not_negative, size, whole
-
-if cython.compiled:
-    from cython.cimports.paneldraw.framebuffer.arguments import NEAR, pointer_to_bytes
-    from cython.cimports.paneldraw.raster.masks import stamp
-    from cython.cimports.paneldraw.raster.surface import Surface
-else:
-    from paneldraw.framebuffer.arguments import NEAR, pointer_to_bytes
-    from paneldraw.framebuffer.shapes import Shapes
-    from paneldraw.raster.masks import stamp
-    from paneldraw.raster.surface import Surface
+from paneldraw.framebuffer.angles import sweep
+from paneldraw.framebuffer.arguments import LARGEST, check_antialias, choice, in_turn, real, size, whole
+from paneldraw.raster.surface import OPS
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
     from os import PathLike
+    from typing import SupportsIndex
 
-    from numpy.typing import NDArray
+    from numpy.typing import ArrayLike, NDArray
     from PIL import Image
 
-    from paneldraw.framebuffer.arguments import Antialias, Int, Level, Real, Str
+    from paneldraw.framebuffer.arguments import Antialias, AntialiasOrDefault
     from paneldraw.framebuffer.pictures import Dither
     from paneldraw.text import Font
 
 _DEPTHS = (1, 2, 4, 8)
+_ALGORITHMS = {"bresenham": 0, "dda": 1}
+_RULES = {"even-odd": 0, "nonzero": 1}
+_EDGES = {"shared": 0, "covered": 1}
+
+# The attributes that are no subclass's.
+_OWN = {"pixels", "depth", "surface", "painter", "_whole", "_clips"}
 
 
 @cython.cclass
-class Framebuffer(Shapes):
+class Framebuffer:
     """A picture in memory, one byte a pixel, and the calls that draw on it.
 
     x runs right and y down from (0, 0), the center of the top-left pixel. What lies outside is clipped away; no
-    coordinate is too large. Whole coordinates and floats are welcome everywhere; aliased shapes take the nearest pixel.
+    coordinate is too large. Whole coordinates and floats are welcome everywhere; aliased shapes take the nearest pixel,
+    round ones the nearest half.
 
     Parameters
     ----------
@@ -72,6 +80,15 @@ class Framebuffer(Shapes):
     (default: the highest) and `op` says how it meets the level that is there: ``"over"`` replaces it, ``"xor"``
     combines the bits, ``"add"`` adds up to the highest level, ``"max"`` keeps the higher and ``"clear"`` makes it 0.
 
+    Aliased and of width 1, curves are the midpoint method's. Wider or anti-aliased, an outline goes along the true
+    curve, half of its width on either side, and a pixel or sub-pixel is in it if its reference point is. Filled, a
+    rectangle or round shape is its outline and all that this encloses, and so goes on for half a width beyond the true
+    curve: by default half a pixel. Of a filled polygon see `poly`. Fractions of a pixel are taken to the nearest 256th.
+
+    Shapes within 131,072 pixels of (0, 0) are exact. What reaches further is cut there, and may be off by a pixel.
+
+    Framebuffers copy, pickle and compare as arrays do; a copy of a `view` has pixels of its own.
+
     Examples
     --------
     >>> from paneldraw import Framebuffer
@@ -86,11 +103,12 @@ class Framebuffer(Shapes):
     .......##
     """
 
-    pixels: NDArray[np.uint8]
-    depth: Int
+    if TYPE_CHECKING:
+        pixels: NDArray[np.uint8]
+        depth: int
 
     def __init__(
-        self, width: SupportsIndex, height: SupportsIndex, depth: Int = 1, *, antialias: Antialias = None
+        self, width: SupportsIndex, height: SupportsIndex, depth: int = 1, *, antialias: Antialias = None
     ) -> None:
         width, height = size("width", width), size("height", height)
         for name, side in (("width", width), ("height", height)):
@@ -99,12 +117,18 @@ class Framebuffer(Shapes):
         depth = size("depth", depth)
         if depth not in _DEPTHS:
             raise ValueError(f"depth must be 1, 2, 4 or 8 bits a pixel, not {depth!r}")
-        memory = np.zeros(width * height, np.uint8)
-        self._contours = None
-        self.surface = Surface(memory, 0, width, width, height, (1 << depth) - 1)
-        self.pixels = memory.reshape(height, width)
+        # While an array looks at a bytearray, nobody can change its size.
+        memory = bytearray(width * height)
+        self.pixels = np.frombuffer(memory, np.uint8).reshape(height, width)
         self.depth = depth
-        self.antialias = antialias
+        self._draw_on(Surface(memory, 0, width, width, height, (1 << depth) - 1), antialias)
+
+    def _draw_on(self, surface, antialias):
+        """Draw on this surface."""
+        self.surface = surface
+        self.painter = Painter(surface, antialias)
+        self._whole = (surface.left, surface.top, surface.right, surface.bottom)
+        self._clips = []
 
     @property
     def width(self) -> int:
@@ -120,34 +144,695 @@ class Framebuffer(Shapes):
 
     @property
     def antialias(self) -> Antialias:
-        return self._antialias
+        return self.painter.antialias
 
     @antialias.setter
     def antialias(self, value: Antialias) -> None:
-        as_samples(value)
-        self._antialias = value
+        check_antialias(value)
+        self.painter.antialias = value
 
-    def fill(self, c: Level) -> None:
-        """Set every pixel to level `c`."""
-        y: cython.Py_ssize_t
-        self._dip(c, "over")
-        for y in range(self.surface.top, self.surface.bottom):
-            self.surface.span(y, self.surface.left, self.surface.right)
+    # -- Points and lines
+
+    def fill(self, c: int | None) -> None:
+        """Set every pixel, or within `clip` those of its window, to level `c` (None: the highest)."""
+        self.painter.fill(c)
 
     def clear(self) -> None:
-        """Set every pixel to level 0."""
+        """Set every pixel, or within `clip` those of its window, to level 0."""
         self.fill(0)
+
+    @cython.locals(surface=Surface, column=cython.longlong, row=cython.longlong, color=cython.longlong)
+    def pixel(self, x: int | float, y: int | float, c: int | None = None, *, op: str = "over") -> int | None:
+        """Paint one pixel with level `c`, or, with no level given, return the level it has (0 outside).
+
+        Examples
+        --------
+        >>> from paneldraw import Framebuffer
+        >>> fb = Framebuffer(4, 2, depth=4)
+        >>> fb.pixel(1, 0, 9)
+        >>> fb.pixel(1, 0)
+        9
+        """
+        surface = self.surface
+        column = quick(x)
+        row = quick(y)
+        if column == FAR or row == FAR:
+            column, row = near_pixel("x", x), near_pixel("y", y)
+        if c is None:
+            if 0 <= column < surface.width and 0 <= row < surface.height:
+                return surface.pixels[row * surface.stride + column]
+            return 0
+        color = quick(c)
+        if not 0 <= color <= surface.max_level:
+            color = level(surface, c)
+        if not is_word(op, "over"):
+            surface.paint_with(cython.cast(cython.int, color), choice("op", op, OPS))
+            surface.point(column, row)
+        elif surface.left <= column < surface.right and surface.top <= row < surface.bottom:
+            surface.pixels[row * surface.stride + column] = color
+        return None
+
+    def hline(self, x: int | float, y: int | float, w: int | float, c: int | None = None, *, op: str = "over") -> None:
+        """Draw a horizontal line of `w` pixels from (x, y) to the right; a negative `w` raises ``ValueError``."""
+        self.painter.run(x, y, w, True, c, op)
+
+    def vline(self, x: int | float, y: int | float, h: int | float, c: int | None = None, *, op: str = "over") -> None:
+        """Draw a vertical line of `h` pixels from (x, y) downward; a negative `h` raises ``ValueError``."""
+        self.painter.run(x, y, h, False, c, op)
+
+    def line(
+        self,
+        x1: int | float,
+        y1: int | float,
+        x2: int | float,
+        y2: int | float,
+        c: int | None = None,
+        *,
+        width: int | float = 1,
+        cap: str = "square",
+        dash: Iterable[int | float] | None = None,
+        algorithm: str = "bresenham",
+        antialias: AntialiasOrDefault = ...,
+        op: str = "over",
+    ) -> None:
+        """Draw the line from (x1, y1) to (x2, y2), both end points included.
+
+        One pixel wide and aliased it is Bresenham's: the same pixels in both directions, each within half a pixel of
+        the true line. Wider or anti-aliased it is the rectangle around the true line: a pixel or sub-pixel is in it
+        if its reference point is. Widths and fractions of a pixel are taken to the nearest 256th.
+
+        Parameters
+        ----------
+        x1, y1, x2, y2 : int or float
+        c : int, optional
+        width : int or float, default 1
+            Thickness in pixels, above 0.
+        cap : {"square", "butt", "round"}
+            Whether a thick line reaches half a width beyond its end points, ends there, or ends in half a disc (a
+            polygon within a 256th of a pixel of it). An aliased line of width 1 has no caps.
+        dash : iterable of int or float, optional
+            Lengths in pixels, each 1 or more, drawn and left out in turn from where the line begins, over and over;
+            with an odd number of them, what was drawn is left out the next time. An aliased line of width 1 counts
+            pixels; others measure along the line. A round cap ends every dash, a square one the line.
+        algorithm : {"bresenham", "dda"}
+            How the pixels of an aliased line of width 1 are found. They are the same; the DDA is there to compare.
+        antialias : Supersample, ConeFilter or None, optional
+            Default: the framebuffer's.
+        op : {"over", "xor", "add", "max", "clear"}
+
+        Raises
+        ------
+        TypeError
+            If `dash` is not a sequence of numbers.
+        ValueError
+            If `width` is below 1/256, `dash` is empty or a length of it below 1, or `cap`, `algorithm` or `op` is none
+            of these.
+
+        Notes
+        -----
+        J. E. Bresenham, "Algorithm for computer control of a digital plotter", IBM Systems Journal 4 (1965), 25-30.
+
+        Examples
+        --------
+        >>> from paneldraw import Framebuffer
+        >>> fb = Framebuffer(8, 4)
+        >>> fb.line(0, 0, 7, 3)
+        >>> print(fb)
+        ##......
+        ..##....
+        ....##..
+        ......##
+        """
+        style = self.painter.style(c, op, width, antialias, cap, "miter", dash)
+        dda = 0 if is_word(algorithm, "bresenham") else choice("algorithm", algorithm, _ALGORITHMS)
+        self.painter.line(x1, y1, x2, y2, style, dda)
+
+    def lines(
+        self,
+        segments: ArrayLike,
+        c: int | None = None,
+        *,
+        width: int | float = 1,
+        cap: str = "square",
+        dash: Iterable[int | float] | None = None,
+        algorithm: str = "bresenham",
+        antialias: AntialiasOrDefault = ...,
+        op: str = "over",
+    ) -> None:
+        """Draw many lines in one call: as `line` for each row (x1, y1, x2, y2) of an array of shape (n, 4).
+
+        Parameters
+        ----------
+        segments : array_like
+            Shape (n, 4).
+        c, width, cap, dash, algorithm, antialias, op
+            As for `line`. Each line begins the dash pattern anew.
+
+        Raises
+        ------
+        ValueError
+            If `segments` are not rows of four finite numbers, and as for `line`. Nothing is painted then.
+
+        Examples
+        --------
+        >>> from paneldraw import Framebuffer
+        >>> fb = Framebuffer(8, 3)
+        >>> fb.lines([[0, 0, 7, 0], [0, 2, 7, 2]])
+        >>> print(fb)
+        ########
+        ........
+        ########
+        """
+        style = self.painter.style(c, op, width, antialias, cap, "miter", dash)
+        dda = 0 if is_word(algorithm, "bresenham") else choice("algorithm", algorithm, _ALGORITHMS)
+        self.painter.segments(rows_of("segments", segments, 4, 1 if style.thin else 256), style, dda)
+
+    def points(self, xy: ArrayLike, c: int | None = None, *, op: str = "over") -> None:
+        """Paint many pixels in one call: the rows (x, y) of an array of shape (n, 2).
+
+        A pixel that is there twice is painted twice.
+
+        Raises
+        ------
+        ValueError
+            If `xy` are not rows of two finite numbers. Nothing is painted then.
+
+        Examples
+        --------
+        >>> from paneldraw import Framebuffer
+        >>> fb = Framebuffer(4, 2)
+        >>> fb.points([[0, 0], [3, 1]])
+        >>> print(fb)
+        #...
+        ...#
+        """
+        self.painter.paint_with(c, op)
+        self.painter.points(rows_of("xy", xy, 2, 1))
+
+    # -- Paths
+
+    def polyline(
+        self,
+        points: ArrayLike,
+        c: int | None = None,
+        *,
+        closed: bool = False,
+        width: int | float = 1,
+        cap: str = "square",
+        join: str = "miter",
+        dash: Iterable[int | float] | None = None,
+        antialias: AntialiasOrDefault = ...,
+        op: str = "over",
+    ) -> None:
+        """Draw lines from point to point, as one shape: where they meet or cross, a pixel is painted once.
+
+        Parameters
+        ----------
+        points : array_like
+            Shape (n, 2), or x and y in turn. One point is a line of no length; none draws nothing.
+        c : int, optional
+        closed : bool, default False
+            Whether a line leads from the last point back to the first.
+        width, cap, dash, antialias, op
+            As for `line`. The dash pattern goes on around corners.
+        join : {"miter", "round", "bevel"}
+            How the outer side of a thick line's corner is filled: to a point, unless that lies more than 4 half widths
+            away, else like a bevel; by an arc (a polygon within a 256th of a pixel of it); or by a straight edge.
+
+        Raises
+        ------
+        ValueError
+            If `points` are not points or `join` is none of these, and as for `line`.
+
+        Examples
+        --------
+        >>> from paneldraw import Framebuffer
+        >>> fb = Framebuffer(7, 4)
+        >>> fb.polyline([(0, 3), (3, 0), (6, 3)])
+        >>> print(fb)
+        ...#...
+        ..#.#..
+        .#...#.
+        #.....#
+        """
+        self.painter.path("points", points, closed, self.painter.style(c, op, width, antialias, cap, join, dash))
+
+    def triangle(
+        self,
+        x1: int | float,
+        y1: int | float,
+        x2: int | float,
+        y2: int | float,
+        x3: int | float,
+        y3: int | float,
+        c: int | None = None,
+        fill: bool = False,
+        *,
+        width: int | float = 1,
+        join: str = "miter",
+        dash: Iterable[int | float] | None = None,
+        edges: str = "covered",
+        antialias: AntialiasOrDefault = ...,
+        op: str = "over",
+    ) -> None:
+        """Draw a triangle: its outline, or with `fill` what it encloses, as `poly` does.
+
+        Parameters
+        ----------
+        x1, y1, x2, y2, x3, y3 : int or float
+            The corners.
+        c, fill, width, join, dash, edges, antialias, op
+            As for `poly`.
+
+        Raises
+        ------
+        ValueError
+            As for `poly`.
+
+        Examples
+        --------
+        >>> from paneldraw import Framebuffer
+        >>> fb = Framebuffer(7, 4)
+        >>> fb.triangle(0, 3, 3, 0, 6, 3)
+        >>> print(fb)
+        ...#...
+        ..#.#..
+        .#...#.
+        #######
+        """
+        style = self.painter.style(c, op, width, antialias, "square", join, dash)
+        covered = 1 if is_word(edges, "covered") else choice("edges", edges, _EDGES)
+        self.painter.triangle(x1, y1, x2, y2, x3, y3, fill, covered, style)
+
+    def poly(
+        self,
+        x: int | float,
+        y: int | float,
+        coords: ArrayLike,
+        c: int | None = None,
+        fill: bool = False,
+        *,
+        rule: str = "even-odd",
+        edges: str = "covered",
+        width: int | float = 1,
+        join: str = "miter",
+        dash: Iterable[int | float] | None = None,
+        antialias: AntialiasOrDefault = ...,
+        op: str = "over",
+    ) -> None:
+        """Draw a polygon, which may cross itself: its outline, or with `fill` what it encloses.
+
+        A pixel or sub-pixel is in the filled polygon if its reference point is. A point on an edge is in if the inside
+        lies to its right, or, on a horizontal edge, below: polygons that share an edge share no point and leave none
+        out. An aliased one covers, besides, its outline one pixel wide, unless `edges` says that they are shared.
+        A filled polygon without an area, as of two points, is its outline.
+
+        Parameters
+        ----------
+        x, y : int or float
+            Added to all points.
+        coords : array_like
+            The corners: x and y in turn, as in ``array("h", [0, 0, 9, 5, 0, 9])``, or an array of shape (n, 2).
+        c : int, optional
+        fill : bool, default False
+        rule : {"even-odd", "nonzero"}
+            What is inside where a polygon crosses itself: what it goes around an odd number of times, or any number.
+        edges : {"covered", "shared"}
+            Whether an aliased filled polygon is at least its outline, or shares no pixel with a neighbor.
+        width, join, dash
+            As for `polyline`; of the outline that is drawn without `fill`.
+        antialias, op
+            As for `line`.
+
+        Raises
+        ------
+        ValueError
+            If `coords` are not points, `rule` or `edges` is neither of the two, and as for `polyline`.
+
+        Examples
+        --------
+        >>> from paneldraw import Framebuffer
+        >>> fb = Framebuffer(7, 4)
+        >>> fb.poly(0, 0, [0, 0, 6, 0, 3, 3], fill=True)
+        >>> print(fb)
+        #######
+        .#####.
+        ..###..
+        ...#...
+        """
+        nonzero = 0 if is_word(rule, "even-odd") else choice("rule", rule, _RULES)
+        covered = 1 if is_word(edges, "covered") else choice("edges", edges, _EDGES)
+        style = self.painter.style(c, op, width, antialias, "square", join, dash)
+        if type(x) is not int or type(y) is not int or x != 0 or y != 0:
+            coords = _shifted(real("x", x), real("y", y), coords)
+        self.painter.polygon(coords, fill, nonzero, covered, style)
+
+    # -- Rectangles and round shapes
+
+    def rect(
+        self,
+        x: int | float,
+        y: int | float,
+        w: int | float,
+        h: int | float,
+        c: int | None = None,
+        fill: bool = False,
+        *,
+        width: int | float = 1,
+        dash: Iterable[int | float] | None = None,
+        antialias: AntialiasOrDefault = ...,
+        op: str = "over",
+    ) -> None:
+        """Draw a rectangle of `w` x `h` pixels, its top-left pixel at (x, y): the outline, or with `fill` all of it.
+
+        Its true outline leads through the centers of the outermost pixels, so that the rectangle reaches from
+        x - 1/2 to x + w - 1/2 and from y - 1/2 to y + h - 1/2, whole numbers or not.
+
+        Parameters
+        ----------
+        x, y : int or float
+        w, h : int or float
+            Size in pixels. A width or height of 0 draws nothing.
+        c : int, optional
+        fill : bool, default False
+        width : int or float, default 1
+            Thickness of the outline in pixels, half of it on either side of the true outline.
+        dash : iterable of int or float, optional
+            As for `line`, clockwise from the top-left corner; of the outline that is drawn without `fill`.
+        antialias : Supersample, ConeFilter or None, optional
+            Default: the framebuffer's.
+        op : {"over", "xor", "add", "max", "clear"}
+
+        Raises
+        ------
+        ValueError
+            If `w` or `h` is negative, and as for `line`.
+
+        Examples
+        --------
+        >>> from paneldraw import Framebuffer
+        >>> fb = Framebuffer(9, 4)
+        >>> fb.rect(1, 0, 7, 4)
+        >>> print(fb)
+        .#######.
+        .#.....#.
+        .#.....#.
+        .#######.
+        """
+        self.painter.box(x, y, w, h, 0, fill, self.painter.style(c, op, width, antialias, "butt", "miter", dash))
+
+    def round_rect(
+        self,
+        x: int | float,
+        y: int | float,
+        w: int | float,
+        h: int | float,
+        r: int | float,
+        c: int | None = None,
+        fill: bool = False,
+        *,
+        width: int | float = 1,
+        antialias: AntialiasOrDefault = ...,
+        op: str = "over",
+    ) -> None:
+        """Draw a rectangle with rounded corners: the outline, or with `fill` all of it.
+
+        Parameters
+        ----------
+        x, y, w, h : int or float
+            As for `rect`.
+        r : int or float
+            Radius of the corners. Of one too large, as much is taken as the sides have room for: half of the shorter
+            one, less half a pixel. With 0 the corners are sharp, and it is `rect`. Halves count, as for `circle`.
+        c, fill, width, antialias, op
+            As for `rect`.
+
+        Raises
+        ------
+        ValueError
+            If `w`, `h` or `r` is negative, `width` is below 1/256 or `op` is none of these.
+
+        Examples
+        --------
+        >>> from paneldraw import Framebuffer
+        >>> fb = Framebuffer(9, 5)
+        >>> fb.round_rect(0, 0, 9, 5, 2)
+        >>> print(fb)
+        .#######.
+        #.......#
+        #.......#
+        #.......#
+        .#######.
+        """
+        self.painter.box(x, y, w, h, r, fill, self.painter.style(c, op, width, antialias))
+
+    def circle(
+        self,
+        x: int | float,
+        y: int | float,
+        r: int | float,
+        c: int | None = None,
+        fill: bool = False,
+        *,
+        width: int | float = 1,
+        dash: Iterable[int | float] | None = None,
+        antialias: AntialiasOrDefault = ...,
+        op: str = "over",
+    ) -> None:
+        """Draw the circle of radius `r` around (x, y): its outline, or with `fill` the disc within it.
+
+        Parameters
+        ----------
+        x, y, r : int or float
+            A radius of 0 draws one pixel, or else a dot as large as the width. Aliased and of width 1, all three are
+            taken to the nearest half: ``circle(4.5, 4.5, 4.5, fill=True)`` is 10 pixels wide.
+        c, fill, width, dash, antialias, op
+            As for `rect`, but dashes begin on the right. They are measured along the true circle.
+
+        Raises
+        ------
+        ValueError
+            If `r` is negative, and as for `line`.
+
+        Notes
+        -----
+        J. E. Bresenham, "A linear algorithm for incremental digital display of circular arcs", CACM 20 (1977), 100-106.
+
+        Examples
+        --------
+        >>> from paneldraw import Framebuffer, Supersample
+        >>> fb = Framebuffer(14, 7, depth=4)
+        >>> fb.circle(3, 3, 3)
+        >>> fb.circle(10, 3, 3, antialias=Supersample(4))
+        >>> print(fb)
+        ..fff...5dfd5.
+        .f...f.5c4.4c5
+        f.....fd4...4d
+        f.....ff.....f
+        f.....fd4...4d
+        .f...f.5c4.4c5
+        ..fff...5dfd5.
+        """
+        style = self.painter.style(c, op, width, antialias, "butt", "miter", dash)
+        if style.dash is not None and not fill:
+            self.painter.turn(x, y, r, 0, 0, 360, style)
+            return
+        self.painter.circle(x, y, r, fill, style)
+
+    def ellipse(
+        self,
+        x: int | float,
+        y: int | float,
+        xr: int | float,
+        yr: int | float,
+        c: int | None = None,
+        fill: bool = False,
+        quadrants: int = 0b1111,
+        *,
+        width: int | float = 1,
+        antialias: AntialiasOrDefault = ...,
+        op: str = "over",
+    ) -> None:
+        """Draw the ellipse with the radii `xr` and `yr` around (x, y), or some quarters of it.
+
+        Wider or anti-aliased, the outline is what lies between two ellipses, whose radii are half a width larger and
+        smaller. Across a slope that is a little less than the width.
+
+        Parameters
+        ----------
+        x, y : int or float
+        xr, yr : int or float
+            With a radius of 0 the ellipse is a line. Halves count, as for `circle`.
+        c : int, optional
+        fill : bool, default False
+        quadrants : int, default 0b1111
+            The quarters to draw, bits as in MicroPython's framebuf: 1 top right, 2 top left, 4 bottom left, 8 bottom
+            right. A quarter includes the pixels on its axes, half a pixel beyond the center.
+        width, antialias, op
+            As for `rect`.
+
+        Raises
+        ------
+        ValueError
+            If a radius is negative, `width` is below 1/256, `quadrants` is not from 0 to 15, or `op` is none of these.
+
+        Notes
+        -----
+        J. R. Van Aken, "An efficient ellipse-drawing algorithm", IEEE Computer Graphics and Applications 4:9 (1984),
+        24-35.
+
+        Examples
+        --------
+        >>> from paneldraw import Framebuffer
+        >>> fb = Framebuffer(11, 5)
+        >>> fb.ellipse(5, 2, 5, 2)
+        >>> print(fb)
+        ..#######..
+        .#.......#.
+        #.........#
+        .#.......#.
+        ..#######..
+        """
+        quarters = size("quadrants", quadrants)
+        if not 0 <= quarters <= 15:
+            wanted = "the sum of those to draw of 1, 2, 4 and 8"
+            raise ValueError(f"quadrants must be from 0 to 15, {wanted}, not {quadrants}")
+        style = self.painter.style(c, op, width, antialias)
+        self.painter.ellipse(x, y, xr, yr, fill, quarters, style)
+
+    def arc(
+        self,
+        x: int | float,
+        y: int | float,
+        r: int | float,
+        start: int | float,
+        end: int | float,
+        c: int | None = None,
+        *,
+        width: int | float = 1,
+        cap: str = "butt",
+        dash: Iterable[int | float] | None = None,
+        antialias: AntialiasOrDefault = ...,
+        op: str = "over",
+    ) -> None:
+        """Draw the part of a circle that lies clockwise from the angle `start` to the angle `end`.
+
+        Aliased, it is the part of the midpoint circle from the pixel nearest to the one end to the pixel nearest to the
+        other, both included. Wider or anti-aliased, it goes along the true circle, half of its width on either side,
+        and ends as `cap` says.
+
+        Parameters
+        ----------
+        x, y, r : int or float
+            As for `circle`.
+        start, end : int or float
+            Degrees clockwise from the x axis, as the screen shows them: 0 is right, 90 down, -90 up. If `end` is 360
+            or more beyond `start`, it is the circle; else the arc goes on until it first comes to `end`. From an angle
+            to the same one it is a pixel; where it is wider or anti-aliased, its two caps.
+        c, width, antialias, op
+            As for `rect`.
+        cap : {"butt", "square", "round"}
+            Whether a wider or anti-aliased arc ends straight at the angles, half a width beyond them, or in half a disc
+            there. An aliased arc of width 1 has no caps.
+        dash : iterable of int or float, optional
+            As for `line`, from `start` on, measured along the true circle.
+
+        Raises
+        ------
+        ValueError
+            If `r` is negative or an angle is not finite, and as for `line`.
+
+        Examples
+        --------
+        >>> from paneldraw import Framebuffer
+        >>> fb = Framebuffer(9, 5)
+        >>> fb.arc(4, 4, 4, 180, 0)
+        >>> print(fb)
+        ...###...
+        .##...##.
+        .#.....#.
+        #.......#
+        #.......#
+        """
+        start, end = real("start", start), real("end", end)
+        style = self.painter.style(c, op, width, antialias, cap, "miter", dash)
+        swept = sweep(start, end)
+        if swept >= 360 and style.dash is None:
+            self.circle(x, y, r, c, width=width, antialias=antialias, op=op)
+        else:
+            self.painter.turn(x, y, r, start % 360, end % 360, swept, style)
+
+    def sector(
+        self,
+        x: int | float,
+        y: int | float,
+        r: int | float,
+        start: int | float,
+        end: int | float,
+        c: int | None = None,
+        fill: bool = False,
+        *,
+        width: int | float = 1,
+        antialias: AntialiasOrDefault = ...,
+        op: str = "over",
+    ) -> None:
+        """Draw a slice of a disc, clockwise from the angle `start` to the angle `end`: its outline, or all of it.
+
+        Aliased, its outline is `arc` and Bresenham's lines from the center to the ends of that; with `fill` it is these
+        and all of the disc between them. Wider or anti-aliased, the outline goes along the true arc and the two radii,
+        half of its width on either side, with a round corner at the center, and `fill` is the slice itself: slices that
+        share an angle share no sub-pixel and leave none out, and the whole of them is the disc.
+
+        Parameters
+        ----------
+        x, y, r : int or float
+            As for `circle`.
+        start, end : int or float
+            As for `arc`; if `end` is 360 or more beyond `start`, it is the circle or disc. From an angle to the same
+            one it is a radius, or with `fill`, where it is wider or anti-aliased, nothing.
+        c, fill, width, antialias, op
+            As for `rect`.
+
+        Raises
+        ------
+        ValueError
+            If `r` is negative, an angle is not finite, `width` is below 1/256, or `op` is none of these.
+
+        Examples
+        --------
+        >>> from paneldraw import Framebuffer
+        >>> fb = Framebuffer(8, 8)
+        >>> fb.sector(0, 7, 7, -90, 0)
+        >>> print(fb)
+        ###.....
+        #..##...
+        #....#..
+        #.....#.
+        #.....#.
+        #......#
+        #......#
+        ########
+        """
+        start, end = real("start", start), real("end", end)
+        style = self.painter.style(c, op, width, antialias, "butt")
+        swept = sweep(start, end)
+        if swept >= 360:
+            self.circle(x, y, r, c, fill, width=width, antialias=antialias, op=op)
+        else:
+            self.painter.slice(x, y, r, start % 360, end % 360, swept, fill, style)
+
+    # -- Text and pictures
 
     def text(
         self,
-        s: Str,
-        x: Real,
-        y: Real,
-        c: Level = None,
+        s: str,
+        x: int | float,
+        y: int | float,
+        c: int | None = None,
         *,
         font: Font | None = None,
-        anchor: Str = "lt",
-        op: Str = "over",
+        anchor: str = "lt",
+        op: str = "over",
     ) -> None:
         """Write text.
 
@@ -158,11 +843,18 @@ class Framebuffer(Shapes):
         x, y : int or float
             Where the anchor lies.
         c : int, optional
+            Of the characters' lit pixels; the others stay as they are.
         font : Font, optional
             Default: the built-in font of 6 x 8 pixels a character.
         anchor : str, default "lt"
             Which pixel of the text's box (x, y) means: ``l``, ``m`` or ``r``, then ``t``, ``m``, ``b`` or ``s`` (the
             row that the first line stands on). See `paneldraw.text.render`.
+        op : {"over", "xor", "add", "max", "clear"}
+
+        Raises
+        ------
+        ValueError
+            If `anchor` or `op` is none of these.
 
         Examples
         --------
@@ -172,17 +864,16 @@ class Framebuffer(Shapes):
         >>> int(fb.pixels.sum()) > 0
         True
         """
-        from paneldraw.text import render
-
-        coverage, dx, dy = render(s, font, anchor)
-        left = min(max(whole("x", x) + dx, -NEAR), NEAR)
-        top = min(max(whole("y", y) + dy, -NEAR), NEAR)
-        self._dip(c, op)
-        height, width = coverage.shape
-        stamp(self.surface, pointer_to_bytes(coverage), width, height, left, top)
+        self.painter.paint_with(c, op)
+        self.painter.text(s, x, y, font, anchor)
 
     def image(
-        self, picture: Image.Image | NDArray[Any], x: Real = 0, y: Real = 0, *, dither: Dither | None = None
+        self,
+        picture: Image.Image | NDArray[Any],
+        x: int | float = 0,
+        y: int | float = 0,
+        *,
+        dither: Dither | None = None,
     ) -> None:
         """Paint a picture with its top-left pixel at (x, y).
 
@@ -202,21 +893,15 @@ class Framebuffer(Shapes):
         ValueError
             If the array has another shape or `dither` is none of these.
         """
-        gray, alpha = pictures.to_gray(picture)
-        levels = pictures.quantize(gray, self.surface.max_level, dither)
-        part = self._visible(whole("x", x), whole("y", y), levels.shape[1], levels.shape[0])
-        if part is None:
-            return
-        mine, its = part
-        below = self.pixels[mine]
-        if alpha is None:
-            below[...] = levels[its]
-        else:
-            share = alpha[its].astype(np.int32)
-            below[...] = (below * (255 - share) + levels[its] * share + 127) // 255
+        self.painter.image(picture, x, y, dither)
 
     def blit(
-        self, source: Framebuffer | NDArray[np.uint8], x: Real, y: Real, key: Int = -1, palette: Any = None
+        self,
+        source: Framebuffer | NDArray[np.uint8],
+        x: int | float,
+        y: int | float,
+        key: int = -1,
+        palette: Any = None,
     ) -> None:
         """Copy another framebuffer's pixels, its top-left pixel to (x, y).
 
@@ -227,7 +912,7 @@ class Framebuffer(Shapes):
             highest level becomes this one's; an array's must be levels of this framebuffer.
         x, y : int or float
         key : int, default -1
-            The level, after `palette`, that is not copied; -1 for none.
+            The level, after `palette` or scaling, that is not copied; -1 for none.
         palette : Framebuffer of height 1 or sequence of int, optional
             Pixel or item k says which level stands for level k of the source, which then is not scaled.
 
@@ -250,24 +935,18 @@ class Framebuffer(Shapes):
         #...#
         .#.#.
         """
-        key = size("key", key)
-        levels = pictures.levels_for(source, self.surface.max_level, palette)
-        part = self._visible(whole("x", x), whole("y", y), levels.shape[1], levels.shape[0])
-        if part is None:
-            return
-        mine, its = part
-        levels = levels[its]
-        if np.may_share_memory(levels, self.pixels):
-            levels = levels.copy()
-        if key < 0:
-            self.pixels[mine] = levels
-        else:
-            np.copyto(self.pixels[mine], levels, where=levels != key)
+        self.painter.blit(_surface_of(source), x, y, key, palette)
 
-    def scroll(self, dx: Real, dy: Real, c: Level = None) -> None:
+    def scroll(self, dx: int | float, dy: int | float, c: int | None = None) -> None:
         """Move the picture by (dx, dy) pixels. What nothing moves to stays as it was or, with `c`, gets that level.
 
         Within `clip`, what is inside of the window moves, and nothing else.
+
+        Parameters
+        ----------
+        dx, dy : int or float
+            Pixels to the right and down, to the nearest whole number.
+        c : int, optional
 
         Examples
         --------
@@ -279,35 +958,24 @@ class Framebuffer(Shapes):
         ..#.
         ..#.
         """
-        window = self.surface
-        part = self._visible(
-            window.left + whole("dx", dx),
-            window.top + whole("dy", dy),
-            window.right - window.left,
-            window.bottom - window.top,
-        )
-        inside = self.pixels[window.top : window.bottom, window.left : window.right]
-        before = inside.copy()
-        if c is not None:
-            inside[...] = self._level(c)
-        if part is not None:
-            mine, its = part
-            self.pixels[mine] = before[its]
-
-    def _visible(self, x: Int, y: Int, width: Int, height: Int) -> Any:
-        """The part of a picture at (x, y) that is in the window, as slices of the pixels here and there; or None."""
-        window = self.surface
-        left, right = max(x, window.left), min(x + width, window.right)
-        top, bottom = max(y, window.top), min(y + height, window.bottom)
-        if left >= right or top >= bottom:
-            return None
-        here = (slice(top, bottom), slice(left, right))
-        return here, (slice(top - y, bottom - y), slice(left - x, right - x))
+        self.painter.scroll(dx, dy, c)
 
     # -- Parts of it
 
-    def clip(self, x: Real, y: Real, w: Real, h: Real) -> Clip:
+    def clip(self, x: int | float, y: int | float, w: int | float, h: int | float) -> Clip:
         """Confine drawing to a rectangle, for the length of a ``with`` block; within another one, to what both share.
+
+        Parameters
+        ----------
+        x, y : int or float
+            The top-left pixel.
+        w, h : int or float
+            Size in pixels.
+
+        Raises
+        ------
+        ValueError
+            If `w` or `h` is negative.
 
         Examples
         --------
@@ -321,25 +989,36 @@ class Framebuffer(Shapes):
         ......
         """
         left, top = whole("x", x), whole("y", y)
-        right = left + not_negative("w", whole("w", w))
-        bottom = top + not_negative("h", whole("h", h))
-        return Clip(self, left, top, right, bottom)
+        for name, value in (("w", w), ("h", h)):
+            if real(name, value) < 0:
+                raise ValueError(f"{name} must not be negative, and is {value}")
+        return Clip(self, (left, top, left + whole("w", w), top + whole("h", h)))
 
-    def _window(self) -> Any:
-        return self.surface.left, self.surface.top, self.surface.right, self.surface.bottom
-
-    def _set_window(self, left: Int, top: Int, right: Int, bottom: Int) -> None:
-        limits = (-LARGEST, LARGEST)
-        left, top, right, bottom = (min(max(side, limits[0]), limits[1]) for side in (left, top, right, bottom))
-        self.surface.set_window(left, top, right, bottom)
+    def _clip_to(self, clips):
+        """Confine drawing to what these windows share."""
+        self._clips = clips
+        lefts, tops, rights, bottoms = zip(self._whole, *clips, strict=True)
+        left, top, right, bottom = max(lefts), max(tops), min(rights), min(bottoms)
+        limit = LARGEST
+        self.surface.set_window(min(left, limit), min(top, limit), max(right, 0), max(bottom, 0))
 
     def view(self, x: SupportsIndex, y: SupportsIndex, w: SupportsIndex, h: SupportsIndex) -> Framebuffer:
         """Return a framebuffer over part of the same pixels, with (0, 0) at (x, y).
 
-        It clips to itself and has its own `antialias`, at first the same. Drawing on one shows on the other.
+        It clips to itself, and to what `clip` leaves of it now, and has its own `antialias`, at first the same. Drawing
+        on one shows on the other.
+
+        Parameters
+        ----------
+        x, y : int
+            The top-left pixel of the part.
+        w, h : int
+            Its size in pixels, 1 or more.
 
         Raises
         ------
+        TypeError
+            If one of the four is not a whole number.
         ValueError
             If the part does not lie within the framebuffer.
 
@@ -354,27 +1033,45 @@ class Framebuffer(Shapes):
         ......
         """
         x, y, w, h = size("x", x), size("y", y), size("w", w), size("h", h)
-        mine: Surface = self.surface
+        mine = self.surface
         if x < 0 or y < 0 or w < 1 or h < 1 or x + w > mine.width or y + h > mine.height:
             raise ValueError(
                 f"x, y, w, h must be a part of the {mine.width} x {mine.height} pixels, not {(x, y, w, h)}"
             )
-        part: Framebuffer = Framebuffer.__new__(Framebuffer)
-        origin = mine.origin + y * mine.stride + x
-        part.surface = Surface(mine.memory, origin, mine.stride, w, h, mine.max_level)
+        its = Surface(mine.memory, mine.origin + y * mine.stride + x, mine.stride, w, h, mine.max_level)
+        its.set_window(mine.left - x, mine.top - y, mine.right - x, mine.bottom - y)
+        part = _unmade()
         part.pixels = self.pixels[y : y + h, x : x + w]
         part.depth = self.depth
-        part._antialias = self._antialias
-        part._contours = None
+        part._draw_on(its, self.painter.antialias)
         return part
+
+    def copy(self) -> Framebuffer:
+        """Return a framebuffer of its own with the same pixels.
+
+        Examples
+        --------
+        >>> from paneldraw import Framebuffer
+        >>> fb = Framebuffer(4, 1)
+        >>> other = fb.copy()
+        >>> other.fill(1)
+        >>> print(fb, other)
+        .... ####
+        """
+        return _restored(*self.__reduce__()[1])
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        attributes = {name: value for name, value in getattr(self, "__dict__", {}).items() if name not in _OWN}
+        picture = (self.width, self.height, self.depth, self.painter.antialias, self.pixels.tobytes())
+        return _restored, (type(self), *picture, attributes)
 
     # -- As a picture
 
-    def to_image(self, scale: Int = 1) -> Image.Image:
+    def to_image(self, scale: int = 1) -> Image.Image:
         """Return a Pillow image, mode ``1`` for one bit a pixel, else ``L``, each pixel `scale` x `scale` large."""
         return pictures.to_image(self.pixels, self.surface.max_level, scale)
 
-    def save(self, path: str | PathLike[str], scale: Int = 1) -> None:
+    def save(self, path: str | PathLike[str], scale: int = 1) -> None:
         """Write the picture to a file; its name's ending says in which format (``.png``, ``.bmp``, ...)."""
         self.to_image(scale).save(path)
 
@@ -400,20 +1097,60 @@ class Framebuffer(Shapes):
         return f"Framebuffer({self.width}, {self.height}, depth={self.depth})"
 
 
+def _surface_of(source):
+    """The pixels of a framebuffer; anything else as it is."""
+    if not isinstance(source, Framebuffer):
+        return source
+    return _surface(source)
+
+
+def _surface(fb):
+    # The attribute is asked for, so that a framebuffer that was never made is an error.
+    return fb.surface if fb.surface.stride else None
+
+
+def _unmade():
+    return Framebuffer.__new__(Framebuffer)
+
+
 class Clip:
     """Confines a framebuffer's drawing to a window while its ``with`` block lasts; made by `Framebuffer.clip`."""
 
-    def __init__(self, framebuffer: Framebuffer, left: Int, top: Int, right: Int, bottom: Int) -> None:
+    def __init__(self, framebuffer: Framebuffer, window: tuple[int, int, int, int]) -> None:
         self._framebuffer = framebuffer
-        self._inner = (left, top, right, bottom)
+        self._window = window
 
     def __enter__(self) -> Framebuffer:
-        self._outer = self._framebuffer._window()
-        left, top, right, bottom = self._outer
-        inner = self._inner
-        left, top = max(left, inner[0]), max(top, inner[1])
-        self._framebuffer._set_window(left, top, max(min(right, inner[2]), left), max(min(bottom, inner[3]), top))
+        self._framebuffer._clip_to([*self._framebuffer._clips, self._window])
         return self._framebuffer
 
     def __exit__(self, *_: object) -> None:
-        self._framebuffer._set_window(*self._outer)
+        clips = list(self._framebuffer._clips)
+        # The last one that is this one: windows may be left in any order.
+        del clips[len(clips) - 1 - next(i for i, window in enumerate(reversed(clips)) if window is self._window)]
+        self._framebuffer._clip_to(clips)
+
+
+def _restored(kind, width, height, depth, antialias, levels, attributes):
+    """A framebuffer from what `Framebuffer.__reduce__` tells of one."""
+    fb = kind.__new__(kind)
+    Framebuffer.__init__(fb, width, height, depth, antialias=antialias)
+    fb.pixels[...] = np.frombuffer(levels, np.uint8).reshape(height, width)
+    for name, value in attributes.items():
+        setattr(fb, name, value)
+    return fb
+
+
+def _shifted(x, y, coords):
+    """The points `coords`, moved by (x, y)."""
+    points = in_turn("coords", coords)
+    return [_sum(real("coords", number), y if i % 2 else x) for i, number in enumerate(points)]
+
+
+def _sum(a, b):
+    """a + b; where floats would overflow, of their whole parts: there is no more to such numbers."""
+    try:
+        total = a + b
+    except OverflowError:
+        return int(a) + int(b)
+    return total if isinstance(total, int) or isfinite(total) else int(a) + int(b)

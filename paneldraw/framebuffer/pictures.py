@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import operator
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
@@ -79,14 +80,13 @@ def to_gray(picture: Any) -> tuple[Levels, Levels | None]:
 
 
 def _image_to_gray(image: Image.Image) -> tuple[Levels, Levels | None]:
-    alpha = None
     if "A" in image.getbands() or "transparency" in image.info:
-        image = image.convert("RGBA")
-        alpha = np.asarray(image.getchannel("A"))
+        both = np.asarray((image if image.mode == "RGBA" else image.convert("RGBA")).convert("LA"))
+        return both[:, :, 0], both[:, :, 1]
     if image.mode.startswith("I;16"):
         # Pillow's conversion would cut off at 255 what is brighter.
         return (np.asarray(image) >> 8).astype(np.uint8), None
-    return np.asarray(image.convert("L")), alpha
+    return np.asarray(image if image.mode == "L" else image.convert("L")), None
 
 
 def quantize(gray: Levels, max_level: int, dither: Dither | None = None) -> Levels:
@@ -121,34 +121,23 @@ def quantize(gray: Levels, max_level: int, dither: Dither | None = None) -> Leve
     raise ValueError(f'dither must be None, "bayer" or "floyd-steinberg", not {dither!r}')
 
 
-def levels_for(source: Any, max_level: int, palette: Any = None) -> Levels:
-    """Return the levels 0 ... `max_level` that a framebuffer or an array of levels stands for, by a palette or scaled.
+def palette_table(palette: Any, max_level: int) -> bytes:
+    """Return the levels that a palette holds, a framebuffer or a sequence of whole numbers, a byte each.
 
     Raises
     ------
-    TypeError
-        If `source` is neither.
     ValueError
-        If it, or the palette, has no such levels.
+        If there are none, or one is not from 0 to `max_level`.
     """
-    levels = getattr(source, "pixels", source)
-    if not isinstance(levels, np.ndarray) or levels.dtype != np.uint8 or levels.ndim != 2:
-        raise TypeError(
-            f"source must be a Framebuffer or a uint8 array of shape (height, width), not {type(source).__name__}"
-        )
-    if palette is not None:
-        table = np.asarray(getattr(palette, "pixels", palette)).ravel()
-        if table.dtype.kind not in "iu" or not table.size or table.min() < 0 or table.max() > max_level:
-            raise ValueError(f"palette must hold levels from 0 to {max_level}")
-        if levels.size and levels.max() >= len(table):
-            raise ValueError(f"palette must have a level for each of the source, and has none for {levels.max()}")
-        return table.astype(np.uint8)[levels]
-    of = getattr(source, "max_level", max_level)
-    if of != max_level:
-        return ((levels.astype(np.int32) * (2 * max_level) + of) // (2 * of)).astype(np.uint8)
-    if levels is source and levels.size and levels.max() > max_level:
-        raise ValueError(f"source must hold levels from 0 to {max_level}, and holds {levels.max()}")
-    return levels
+    levels = getattr(palette, "pixels", palette)
+    try:
+        entries = levels.ravel().tolist() if isinstance(levels, np.ndarray) else levels
+        table = bytes([operator.index(level) for level in entries])
+    except (TypeError, ValueError):
+        table = b""
+    if not table or max(table) > max_level:
+        raise ValueError(f"palette must hold levels from 0 to {max_level}")
+    return table
 
 
 def _bayer_matrix() -> NDArray[np.int32]:

@@ -1,20 +1,35 @@
-from paneldraw.raster.surface cimport Surface
+cdef enum:
+    FILTER_FULL = 1024
+    FILTER_SHIFT = 10
+
+cdef class Filter:
+    cdef readonly double radius
+    cdef readonly object name
+    cdef readonly int resolution
+    # C(u, v), and how many entries it has along each side, less one.
+    cdef readonly object table
+    cdef double *volumes
+    cdef int steps
+    # The sub-pixels along each side of a pixel, the sub-scanlines that cross the circle, and half of the pixels that a
+    # span's end changes.
+    cdef readonly int n, lines, reach
+    cdef object kept_weights
+    cdef int *weights
+
+    cdef object prepare(self)
+    cdef double volume(self, double u, double v) noexcept nogil
 
 cdef class ConeFilter:
     cdef readonly double radius
     cdef readonly object filter
     cdef readonly int resolution
-    cdef object kept, volumes_of_edges
-    cdef double *volumes
-    cdef object kept_band
-    cdef double fitted, nearest
-    cdef int *band
+    cdef Filter kept
+
+cdef class Profile:
+    cdef double nearest
     cdef int farthest
+    cdef object kept
+    cdef int *coverage
 
-    cdef double volume(self, double u, double v) noexcept nogil
-    cdef double profile(self, double v) noexcept nogil
-    cdef object fit(self, double width)
-
-cdef void strip(
-    Surface surface, ConeFilter cone, double x1, double y1, double x2, double y2, double width, bint square
-) noexcept nogil
+cdef Profile profile_of(Filter filter, double width)
+cdef Filter _tables_of(ConeFilter cone)

@@ -12,11 +12,31 @@ from math import ceil, floor
 import numpy as np
 
 HALF = Fraction(1, 2)
+REACH = 2**17  # pixels: within it shapes are exact, and what reaches further may be off by a pixel
 
 
 def nearest(value):
     """The nearest whole number, halves upward."""
     return floor(Fraction(value) + HALF)
+
+
+def agree(drawn, exact, numbers):
+    """Whether two pictures are equal or, if a number is beyond +-REACH, what is lit is within a pixel of each other.
+
+    Of a pixel on the border the other may lie outside.
+    """
+    if all(abs(number) <= REACH for number in numbers):
+        return (drawn == exact).all()
+    drawn, exact = drawn > 0, exact > 0
+    inner = np.s_[1:-1, 1:-1]
+    return not (drawn & ~grown(exact))[inner].any() and not (exact & ~grown(drawn))[inner].any()
+
+
+def grown(lit):
+    """The pixels that are lit or touch one that is."""
+    padded = np.pad(lit, 1)
+    height, width = lit.shape
+    return np.any([padded[y : y + height, x : x + width] for y in range(3) for x in range(3)], axis=0)
 
 
 def bresenham(width, height, x1, y1, x2, y2):

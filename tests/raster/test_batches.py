@@ -172,9 +172,9 @@ def test_objects_are_looked_at_one_by_one(package, bad):
     rows = np.empty((1, 4), object)
     rows[0] = [1, 2, 3, None]
     rows[0, 3] = bad
-    with pytest.raises((TypeError, ValueError), match="y2 must be"):
+    with pytest.raises((TypeError, ValueError), match=r"^segments must be"):
         fb.lines(rows)
-    with pytest.raises((TypeError, ValueError), match="y must be"):
+    with pytest.raises((TypeError, ValueError), match=r"^xy must be"):
         fb.points(rows[:, 2:])
 
 

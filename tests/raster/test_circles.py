@@ -7,6 +7,7 @@ from math import hypot
 import definitions
 import numpy as np
 import pytest
+import round_definitions
 from hypothesis import example, given
 from hypothesis import strategies as st
 from PIL import Image, ImageDraw
@@ -41,7 +42,7 @@ def passing_circles(draw, radius):
 @given(st.data(), st.booleans())
 def test_large_circles_equal_the_nearest_pixels(package, radius, data, fill):
     x, y, r = data.draw(passing_circles(radius))
-    assert (drawn(package, x, y, r, fill) == definitions.circle(WIDTH, HEIGHT, x, y, r, fill)).all()
+    assert definitions.agree(drawn(package, x, y, r, fill), definitions.circle(WIDTH, HEIGHT, x, y, r, fill), (x, y, r))
 
 
 @examples(0.5)
@@ -114,5 +115,6 @@ def test_discs_are_the_ring_and_what_it_encloses(ring, package):
 
 @given(*[st.floats(-30, 30)] * 2, st.floats(0, 30))
 @example(4.5, -0.5, 3.5)
-def test_floats_are_taken_to_the_nearest_pixel(package, x, y, r):
-    assert (drawn(package, x, y, r) == definitions.circle(WIDTH, HEIGHT, x, y, r)).all()
+@example(4.25, -0.75, 3.25)
+def test_floats_are_taken_to_the_nearest_half_pixel(package, x, y, r):
+    assert (drawn(package, x, y, r) == round_definitions.ellipse(WIDTH, HEIGHT, x, y, r, r)).all()

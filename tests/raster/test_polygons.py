@@ -54,9 +54,9 @@ def test_polygons_that_share_an_edge_leave_no_gap_and_no_overlap(package, corner
     assume(all(map(has_area, (*parts, corners))))
     together = package.Framebuffer(WIDTH, HEIGHT, 1)
     for part in parts:
-        together.poly(0, 0, part, 1, True, op="xor")
+        together.poly(0, 0, part, 1, True, edges="shared", op="xor")
     whole = package.Framebuffer(WIDTH, HEIGHT, 1)
-    whole.poly(0, 0, corners, 1, True, op="xor")
+    whole.poly(0, 0, corners, 1, True, edges="shared", op="xor")
     assert together == whole
 
 

@@ -1,0 +1,715 @@
+# cython: nonecheck=True
+"""How shapes are painted that the framebuffer's calls ask for: thin or wide, near or far.
+
+Numbers come read and checked. What is thin, one pixel wide and aliased, is in whole or half pixels; all else, and all
+that is far away, is in 256ths of a pixel.
+"""
+
+from __future__ import annotations
+
+from array import array
+from itertools import pairwise
+from math import radians
+
+import cython
+from cython.cimports.paneldraw.framebuffer.arguments import (
+    BEYOND,
+    FAR,
+    Numbers,
+    coordinate,
+    extent,
+    int64s,
+    is_word,
+    level,
+    near_pixel,
+    points_of,
+    top_left,
+    uint8s,
+)
+from cython.cimports.paneldraw.raster.blit import Picture, blit, block, mix, paint_grays, scroll
+from cython.cimports.paneldraw.raster.circle import arc, circle, ellipse, round_rect, sector
+from cython.cimports.paneldraw.raster.circle import disc as thin_disc
+from cython.cimports.paneldraw.raster.cone import ConeFilter
+from cython.cimports.paneldraw.raster.coverage import Coverage
+from cython.cimports.paneldraw.raster.disc import Part, Round, disc, ring
+from cython.cimports.paneldraw.raster.glyphs import Glyphs, one_line, stamp, write
+from cython.cimports.paneldraw.raster.line import bresenham, dashed, polyline
+from cython.cimports.paneldraw.raster.paint import once, painted
+from cython.cimports.paneldraw.raster.polygon import polygon
+from cython.cimports.paneldraw.raster.stroke import Contours, Stroke, arc_path, distinct, doubles, is_endless
+from cython.cimports.paneldraw.raster.surface import OVER, Surface
+from cython.cimports.paneldraw.raster.thick_line import filtered_line, thick_line
+
+from paneldraw.framebuffer import pictures
+from paneldraw.framebuffer.angles import direction, is_reflex
+from paneldraw.framebuffer.arguments import (
+    check_antialias,
+    choice,
+    dash_lengths,
+    dash_steps,
+    line_width,
+    nearest,
+    size,
+    whole,
+)
+from paneldraw.raster import clip
+from paneldraw.raster.circle import UNIT as THIN_UNIT
+from paneldraw.raster.disc import UNIT
+from paneldraw.raster.stroke import CAPS, JOINS
+from paneldraw.raster.surface import OPS
+
+_BUTT = cython.declare(cython.int, CAPS["butt"])
+_SQUARE = cython.declare(cython.int, CAPS["square"])
+_ROUND = cython.declare(cython.int, CAPS["round"])
+_WIDEST = cython.declare(cython.longlong, clip.REACH * 256)
+
+# The length of the vectors that say where a far turn begins and ends: as exact as floating-point numbers are.
+_FAR_UNIT = 1 << 60
+
+# The module of text, from the first text on: a script that writes none does without it.
+_layout = cython.declare(object, None)
+
+
+@cython.final
+@cython.cclass
+class Style:
+    """What a call paints a shape with, but for the level and how it meets what is there, which the surface knows."""
+
+
+@cython.final
+@cython.cclass
+class Painter:
+    """Paints shapes on a surface, and keeps what they need from call to call."""
+
+    def __init__(self, surface: Surface, antialias):
+        check_antialias(antialias)
+        self.surface = surface
+        self.coverage = Coverage(surface)
+        self.contours = Contours()
+        self.kept_style = Style()
+        self.antialias = antialias
+
+    def paint_with(self, c, op):
+        """Paint with level `c` and operation `op`."""
+        code: cython.int = OVER if is_word(op, "over") else choice("op", op, OPS)
+        self.surface.paint_with(level(self.surface, c), code)
+
+    def style(self, c, op, width, antialias, cap="square", join="miter", dash=None):
+        """What a call's arguments say of how to paint."""
+        style: Style = self.kept_style
+        style.cap = _SQUARE if is_word(cap, "square") else _BUTT if is_word(cap, "butt") else choice("cap", cap, CAPS)
+        style.join = 0 if is_word(join, "miter") else choice("join", join, JOINS)
+        if antialias is ...:
+            antialias = self.antialias
+        else:
+            check_antialias(antialias)
+        style.antialias = antialias
+        style.width = 256 if type(width) is int and width == 1 else min(line_width(width), clip.WIDEST)
+        style.dash = None if dash is None else dash_lengths(dash)
+        style.thin = antialias is None and style.width == 256
+        self.paint_with(c, op)
+        return style
+
+    def line(self, x1, y1, x2, y2, style, dda):
+        """Draw a line."""
+        unit: cython.longlong = 1 if style.thin else 256
+        a: cython.longlong = coordinate("x1", x1, unit)
+        b: cython.longlong = coordinate("y1", y1, unit)
+        c: cython.longlong = coordinate("x2", x2, unit)
+        d: cython.longlong = coordinate("y2", y2, unit)
+        if a == FAR or b == FAR or c == FAR or d == FAR:
+            names = (("x1", x1), ("y1", y1), ("x2", x2), ("y2", y2))
+            self._far_line([nearest(name, value, unit) for name, value in names], style, dda)
+        elif style.thin and style.dash is None and not dda:
+            bresenham(self.surface, a, b, c, d)
+        else:
+            self.segment(a, b, c, d, style, dda)
+
+    def segments(self, numbers, style, dda):
+        """Draw the line of each row."""
+        row: cython.Py_ssize_t
+        p: cython.p_longlong = numbers.values
+        if numbers.exact is not None:
+            for row in range(0, 4 * numbers.count, 4):
+                self._far_line(numbers.exact[row : row + 4], style, dda)
+        elif style.thin and style.dash is None and not dda:
+            for row in range(0, 4 * numbers.count, 4):
+                bresenham(self.surface, p[row], p[row + 1], p[row + 2], p[row + 3])
+        elif not style.thin and style.dash is None and style.cap != _ROUND and style.width <= _WIDEST:
+            self.coverage.begin(style.antialias)
+            for row in range(0, 4 * numbers.count, 4):
+                self._rectangle(p[row], p[row + 1], p[row + 2], p[row + 3], style)
+        else:
+            for row in range(0, 4 * numbers.count, 4):
+                self.segment(p[row], p[row + 1], p[row + 2], p[row + 3], style, dda)
+
+    def points(self, numbers):
+        row: cython.Py_ssize_t
+        p: cython.p_longlong = numbers.values
+        if numbers.exact is not None:
+            for x, y in clip.pairs(numbers.exact):
+                if max(abs(x), abs(y)) <= clip.REACH:
+                    self.surface.point(x, y)
+            return
+        for row in range(0, 2 * numbers.count, 2):
+            self.surface.point(p[row], p[row + 1])
+
+    def triangle(self, x1, y1, x2, y2, x3, y3, fill, covered, style):
+        """Fill a triangle or draw its outline."""
+        points: cython.longlong[6]
+        i: cython.int
+        if not cython.compiled:
+            points = [0] * 6
+        points[0], points[1] = coordinate("x1", x1, 256), coordinate("y1", y1, 256)
+        points[2], points[3] = coordinate("x2", x2, 256), coordinate("y2", y2, 256)
+        points[4], points[5] = coordinate("x3", x3, 256), coordinate("y3", y3, 256)
+        bits: cython.longlong = 0
+        far: cython.bint = False
+        for i in range(6):
+            bits |= points[i]
+            far = far or points[i] == FAR
+        if far or bits & 255 or not style.thin or style.dash is not None:
+            self.polygon((x1, y1, x2, y2, x3, y3), fill, False, covered, style)
+            return
+        # Whole pixels, one pixel wide, aliased.
+        marks: Surface = once(self.surface)
+        if fill:
+            self._fill(marks, points, 3, False, None)
+        if covered or not fill:
+            for i in range(6):
+                points[i] >>= 8
+            polyline(marks, points, 3, True, points, 0, 0, False)
+        painted(self.surface, marks, self.surface.top, self.surface.bottom)
+
+    def _fill(self, surface, points, count, nonzero, antialias):
+        """Fill what points enclose, in 256ths, on a surface like this one."""
+        end: cython.Py_ssize_t[1]
+        if not cython.compiled:
+            end = [0]
+        end[0] = count
+        self.coverage.surface = surface
+        self.coverage.begin(antialias)
+        polygon(self.coverage, points, end, 1, nonzero)
+        self.coverage.finish()
+        self.coverage.surface = self.surface
+
+    def polygon(self, coords, fill, nonzero, covered, style):
+        """Fill a polygon or draw its outline."""
+        corners: Numbers
+        if fill:
+            coords = coords if hasattr(coords, "__len__") or not hasattr(coords, "__iter__") else list(coords)
+            corners = points_of("coords", coords, 256)
+            if not _is_flat(corners):
+                self._fill_polygon(corners, coords, nonzero, covered, style)
+                return
+            style.dash = None
+        self.path("coords", coords, True, style)
+
+    def _fill_polygon(self, corners, coords, nonzero, covered, style):
+        """Fill what corners enclose and, if it is to be covered, what lies on the lines between them."""
+        outline: Numbers
+        covered = covered and style.antialias is None
+        if corners.exact is not None:
+            self._far_polygon(corners.exact, nonzero, covered, style)
+            return
+        marks: Surface = once(self.surface) if covered else self.surface
+        self._fill(marks, corners.values, corners.count, nonzero, style.antialias)
+        if covered:
+            outline = points_of("coords", coords, 1)
+            polyline(marks, outline.values, outline.count, True, outline.values, 0, 0, False)
+            painted(self.surface, marks, self.surface.top, self.surface.bottom)
+
+    def fill(self, c):
+        """Paint all that is in the window."""
+        surface: Surface = self.surface
+        block(surface, 0, 0, surface.width, surface.height, level(surface, c), OVER)
+
+    def run(self, x, y, length, across, c, op):
+        """Paint a row of pixels from (x, y) on, or a column of them."""
+        left: cython.longlong = near_pixel("x", x)
+        top: cython.longlong = near_pixel("y", y)
+        count: cython.longlong = extent("w" if across else "h", length, 1)
+        if count == FAR or left == -clip.REACH or top == -clip.REACH:
+            # It may begin out of reach and lead into the window.
+            begin = whole("x", x) if across else whole("y", y)
+            count = min(max(begin + whole("w", length), -clip.REACH), clip.REACH) - (left if across else top)
+        right: cython.longlong = left + (count if across else 1)
+        bottom: cython.longlong = top + (1 if across else count)
+        operation: cython.int = OVER if is_word(op, "over") else choice("op", op, OPS)
+        block(self.surface, left, top, right, bottom, level(self.surface, c), operation)
+
+    def segment(self, x1, y1, x2, y2, style, dda):
+        """Draw a line: in whole pixels if it is thin, else in 256ths."""
+        ends: cython.longlong[4]
+        if not cython.compiled:
+            ends = [0, 0, 0, 0]
+        if style.thin:
+            steps = dash_steps(style.dash)
+            dashed(self.surface, x1, y1, x2, y2, int64s(steps), len(steps) // 8, 0, dda)
+        elif style.dash is None and style.cap != _ROUND and style.width <= _WIDEST:
+            self.coverage.begin(style.antialias)
+            self._rectangle(x1, y1, x2, y2, style)
+        else:
+            ends[0], ends[1], ends[2], ends[3] = x1, y1, x2, y2
+            self._wide_path(ends, 2, False, style)
+
+    def _rectangle(self, x1, y1, x2, y2, style):
+        """Paint the rectangle around a line; `coverage` has begun."""
+        if isinstance(style.antialias, ConeFilter):
+            filtered_line(self.coverage, x1, y1, x2, y2, style.width, style.cap == _SQUARE)
+        else:
+            thick_line(self.coverage, x1, y1, x2, y2, style.width, style.cap == _SQUARE)
+            self.coverage.finish()
+
+    def path(self, name, points, closed, style):
+        """Draw lines from point to point."""
+        numbers: Numbers = points_of(name, points, 1 if style.thin else 256)
+        if style.thin:
+            marks: Surface = once(self.surface)
+            self._thin_path(marks, numbers, closed, style)
+            painted(self.surface, marks, self.surface.top, self.surface.bottom)
+        elif numbers.exact is not None:
+            self._far_path(numbers.exact, closed, style)
+        else:
+            self._wide_path(numbers.values, numbers.count, closed, style)
+
+    def _thin_path(self, surface, numbers, closed, style):
+        """Draw aliased lines of width 1 on a surface, from point to point, each a whole pixel."""
+        if numbers.exact is not None:
+            self._far_thin_path(surface, [256 * number for number in numbers.exact], closed, style.dash, False)
+        elif numbers.count:
+            steps = dash_steps(style.dash)
+            polyline(surface, numbers.values, numbers.count, closed, int64s(steps), len(steps) // 8, 0, False)
+
+    def _wide_path(self, values, count, closed, style):
+        """Draw the stroke of a path near by, its points in 256ths."""
+        last: cython.Py_ssize_t = 2 * count - 2
+        while last > 0 and values[last] == values[0] and values[last + 1] == values[1]:
+            last -= 2
+        # A line is a rectangle, whichever call draws it.
+        self.contours.begin()
+        if self._add_piece(values, count, closed, style, 0, True):
+            self._fill_contours(style, True)
+        elif count:
+            self.coverage.begin(style.antialias)
+            self._rectangle(values[0], values[1], values[last], values[last + 1], style)
+
+    def _add_piece(self, values, count, closed, style, distance, alone):
+        """Add the contours of a path's stroke, its points in 256ths; dashes begin at `distance`.
+
+        Returns whether it did: what is alone and but one straight line is left to be painted as such.
+        """
+        memory = bytearray(16 * (count + 1))
+        points: cython.p_double = doubles(memory, 0)
+        number: cython.Py_ssize_t = distinct(values, count, points)
+        if closed and number > 1 and points[0] == points[2 * number - 2] and points[1] == points[2 * number - 1]:
+            number -= 1
+        closed = closed and number > 2
+        if number == 0:
+            return False
+        whole_dash = style.dash is None or is_endless(points, number, closed, style.dash[0])
+        if alone and number <= 2 and whole_dash and style.cap != _ROUND and style.width <= _WIDEST:
+            return False
+        self._add_stroke(points, number, closed, style, distance)
+        return True
+
+    def _add_stroke(self, points, count, closed, style, distance):
+        """Add the contours of a path's stroke. Behind its points there is room for another."""
+        pixels: cython.Py_ssize_t = max(self.surface.width, self.surface.height)
+        stroke: Stroke = Stroke(self.contours, style.width, style.join, pixels)
+        cap: cython.int = _BUTT if closed and style.cap == _SQUARE else style.cap
+        if style.dash is None or count == 1 or (distance == 0 and is_endless(points, count, closed, style.dash[0])):
+            stroke.path(points, count, closed, cap, cap)
+            return
+        if closed:
+            points[2 * count] = points[0]
+            points[2 * count + 1] = points[1]
+            count += 1
+        stroke.dashes(points, count, cap, style.dash, distance)
+
+    def _fill_contours(self, style, nonzero):
+        """Fill the contours that are collected."""
+        contours: Contours = self.contours
+        self.coverage.begin(style.antialias)
+        polygon(self.coverage, contours.points, contours.ends, contours.contours, nonzero)
+        self.coverage.finish()
+
+    def circle(self, x, y, r, fill, style):
+        """Draw a circle or disc."""
+        unit: cython.longlong = 2 if style.thin else 256
+        cx: cython.longlong = coordinate("x", x, unit)
+        cy: cython.longlong = coordinate("y", y, unit)
+        radius: cython.longlong = extent("r", r, unit)
+        if cx == FAR or cy == FAR or radius == FAR:
+            numbers = _in_256ths((("x", x), ("y", y), ("r", r), ("r", r)))
+            self._far_ellipse(numbers, 15, fill, style)
+        elif not style.thin:
+            self._round_shape(cx, cy, cx, cy, radius, radius, False, fill, None, style)
+        elif fill:
+            thin_disc(self.surface, cx, cy, radius)
+        else:
+            circle(self.surface, cx, cy, radius)
+
+    def ellipse(self, x, y, xr, yr, fill, quadrants, style):
+        """Draw quarters of an ellipse."""
+        unit: cython.longlong = 2 if style.thin else 256
+        cx: cython.longlong = coordinate("x", x, unit)
+        cy: cython.longlong = coordinate("y", y, unit)
+        a: cython.longlong = extent("xr", xr, unit)
+        b: cython.longlong = extent("yr", yr, unit)
+        if cx == FAR or cy == FAR or a == FAR or b == FAR:
+            numbers = _in_256ths((("x", x), ("y", y), ("xr", xr), ("yr", yr)))
+            self._far_ellipse(numbers, quadrants, fill, style)
+        elif style.thin:
+            ellipse(self.surface, cx, cy, a, b, fill, quadrants)
+        elif quadrants:
+            part = None if quadrants == 15 else Part(quadrants, (0, 0), (0, 0), False, False, 0)
+            self._round_shape(cx, cy, cx, cy, a, b, False, fill, part, style)
+
+    def box(self, x, y, w, h, r, fill, style):
+        """Draw a rectangle, its corners sharp for r = 0 or else round."""
+        unit: cython.longlong = 1 if style.thin else 256
+        left: cython.longlong = coordinate("x", x, unit)
+        top: cython.longlong = coordinate("y", y, unit)
+        across: cython.longlong = extent("w", w, unit)
+        down: cython.longlong = extent("h", h, unit)
+        corner: cython.longlong = extent("r", r, 2 * unit if style.thin else unit)
+        if left == FAR or top == FAR or across == FAR or down == FAR:
+            numbers = _in_256ths((("x", x), ("y", y), ("w", w), ("h", h), ("r", r)))
+            self._far_box(numbers, fill, style)
+            return
+        if across == 0 or down == 0:
+            return
+        # The centers of the first and the last pixel of a side are a pixel less apart than it is long.
+        right: cython.longlong = left + across - unit
+        bottom: cython.longlong = top + down - unit
+        if style.dash is not None and not fill:
+            corners = (left, top, right, top, right, bottom, left, bottom)
+            if style.thin:
+                self.path("points", corners, True, style)
+            else:
+                memory = bytearray(array("q", corners))
+                self._wide_path(int64s(memory), 4, True, style)
+        elif style.thin:
+            corner = min(corner, across - 1, down - 1)
+            if corner > 1:
+                left, top, right, bottom = 2 * left + corner, 2 * top + corner, 2 * right - corner, 2 * bottom - corner
+                round_rect(self.surface, left, top, right, bottom, corner, fill)
+            else:
+                self._thin_rect(left, top, right + 1, bottom + 1, fill)
+        else:
+            corner = max(min(corner, (across - 256) // 2, (down - 256) // 2), 0)
+            sharp: cython.bint = corner == 0
+            left, top, right, bottom = left + corner, top + corner, right - corner, bottom - corner
+            self._round_shape(left, top, right, bottom, corner, corner, sharp, fill, None, style)
+
+    def _thin_rect(self, left, top, right, bottom, fill):
+        """Paint an aliased rectangle: left <= x < right, top <= y < bottom."""
+        surface: Surface = self.surface
+        color: cython.int = surface.level
+        op: cython.int = surface.op
+        if fill or right - left <= 2 or bottom - top <= 2:
+            block(surface, left, top, right, bottom, color, op)
+            return
+        block(surface, left, top, right, top + 1, color, op)
+        block(surface, left, bottom - 1, right, bottom, color, op)
+        block(surface, left, top + 1, left + 1, bottom - 1, color, op)
+        block(surface, right - 1, top + 1, right, bottom - 1, color, op)
+
+    def _round_shape(self, left, top, right, bottom, a, b, sharp, fill, part, style):
+        """Paint the ring of a curve, or the disc within it; in 256ths."""
+        shape: Round
+        if not cython.compiled:
+            shape = Round()
+        shape.left, shape.top, shape.right, shape.bottom = left, top, right, bottom
+        shape.a, shape.b, shape.sharp = a, b, sharp
+        to: cython.pointer[Round] = cython.address(shape) if cython.compiled else shape
+        width: cython.longlong = min(style.width, 2 * _WIDEST)
+        self.coverage.begin(style.antialias)
+        if fill:
+            disc(self.coverage, to, width, part)
+        else:
+            ring(self.coverage, to, width, part)
+        self.coverage.finish()
+
+    def slice(self, x, y, r, start, end, swept, fill, style):
+        """Draw a sector of less than a full turn."""
+        unit: cython.longlong = 2 if style.thin else 256
+        cx: cython.longlong = coordinate("x", x, unit)
+        cy: cython.longlong = coordinate("y", y, unit)
+        radius: cython.longlong = extent("r", r, unit)
+        if cx == FAR or cy == FAR or radius == FAR:
+            numbers = _in_256ths((("x", x), ("y", y), ("r", r)))
+            self._far_turn(numbers, start, swept, True, fill, style)
+        elif style.thin:
+            (sx, sy), (ex, ey) = direction(start, THIN_UNIT), direction(end, THIN_UNIT)
+            sector(self.surface, cx, cy, radius, sx, sy, ex, ey, swept > 180, fill)
+        else:
+            begin, stop = direction(start, UNIT), direction(end, UNIT)
+            part = Part(0, begin, stop, is_reflex(begin, stop, swept), not fill, 0)
+            self._round_shape(cx, cy, cx, cy, radius, radius, False, fill, part, style)
+
+    def turn(self, x, y, r, start, end, swept, style):
+        """Draw an arc, which may be dashed."""
+        unit: cython.longlong = 2 if style.thin else 256
+        cx: cython.longlong = coordinate("x", x, unit)
+        cy: cython.longlong = coordinate("y", y, unit)
+        radius: cython.longlong = extent("r", r, unit)
+        if cx == FAR or cy == FAR or radius == FAR:
+            numbers = _in_256ths((("x", x), ("y", y), ("r", r)))
+            self._far_turn(numbers, start, swept, False, False, style)
+        elif style.thin:
+            self._thin_arc(cx, cy, radius, start, swept, style)
+        elif style.dash is not None:
+            memory = arc_path(cx, cy, radius, start, swept)
+            self._dashed_arc(memory, swept >= 360, style)
+        else:
+            begin, stop = direction(start, UNIT), direction(end, UNIT)
+            part = Part(0, begin, stop, is_reflex(begin, stop, swept), False, style.cap)
+            self._round_shape(cx, cy, cx, cy, radius, radius, False, False, part, style)
+
+    def _thin_arc(self, cx, cy, radius, start, swept, style):
+        """Draw an aliased arc of width 1, in half pixels; dashed, it is an arc for every dash."""
+        pieces = [(start, swept)] if style.dash is None else _dashed_angles(start, swept, radius / 2, style.dash)
+        marks: Surface = once(self.surface)
+        for begin, turned in pieces:
+            if turned >= 360:
+                circle(marks, cx, cy, radius)
+            else:
+                (sx, sy), (ex, ey) = direction(begin, THIN_UNIT), direction(begin + turned, THIN_UNIT)
+                arc(marks, cx, cy, radius, sx, sy, ex, ey, turned > 180)
+        painted(self.surface, marks, self.surface.top, self.surface.bottom)
+
+    def _dashed_arc(self, memory, closed, style):
+        """Draw the dashed stroke along the points of an arc or circle."""
+        points: cython.p_double = doubles(memory, 0)
+        count: cython.Py_ssize_t = len(memory) // 16 - 1
+        self.contours.begin()
+        self._add_stroke(points, count, closed, style, 0)
+        self._fill_contours(style, True)
+
+    # -- Text and pictures
+
+    def text(self, s, x, y, font, anchor):
+        """Write text."""
+        global _layout
+        if _layout is None:
+            import paneldraw.text as _layout
+        left: cython.longlong = top_left("x", x)
+        top: cython.longlong = top_left("y", y)
+        font = _layout.font_of(font)
+        glyphs: Glyphs = font._glyphs
+        if glyphs is None or type(s) is not str or not one_line(s):
+            coverage, dx, dy = _layout.render(s, font, anchor)
+            height, width = coverage.shape
+            mask = bytearray(coverage.tobytes())
+            stamp(self.coverage, uint8s(mask), width, height, left + dx, top + dy)
+            return
+        # More is as much: one pixel of the font, beside it or not, is all there is to see.
+        factor: cython.longlong = min(font._factor, 1 << 31)
+        if not is_word(anchor, "lt"):
+            dx, dy = _layout.offset(anchor, glyphs.measure(s) * font._factor, font.height, font.baseline)
+            left += max(dx, -BEYOND)
+            top += max(dy, -BEYOND)
+        write(self.surface, glyphs, s, left, top, factor)
+
+    def image(self, picture, x, y, dither):
+        """Paint a picture of grays."""
+        left: cython.longlong = top_left("x", x)
+        top: cython.longlong = top_left("y", y)
+        levels: Picture = Picture.__new__(Picture)
+        if dither is None and levels.read(picture):
+            paint_grays(self.surface, levels, left, top)
+            return
+        grays, alpha = pictures.to_gray(picture)
+        levels = Picture.__new__(Picture)
+        if dither is not None:
+            levels.read(pictures.quantize(grays, self.surface.max_level, dither))
+        else:
+            levels.read(grays)
+            if alpha is None:
+                paint_grays(self.surface, levels, left, top)
+                return
+            levels.scale(255, self.surface.max_level)
+        if alpha is None:
+            blit(self.surface, levels, left, top, -1)
+        else:
+            opacity: Picture = Picture.__new__(Picture)
+            opacity.read(alpha)
+            mix(self.surface, levels, opacity, left, top)
+
+    def blit(self, source, x, y, key, palette):
+        """Copy the levels of a surface or of an array."""
+        left: cython.longlong = top_left("x", x)
+        top: cython.longlong = top_left("y", y)
+        without: cython.int = min(max(size("key", key), -1), 256)
+        blit(self.surface, self._levels_of(source, palette), left, top, without)
+
+    def _levels_of(self, source, palette):
+        """A surface or an array of levels as a picture of levels of this surface."""
+        levels: Picture = Picture.__new__(Picture)
+        max_level: cython.int = self.surface.max_level
+        of: cython.int = max_level
+        if isinstance(source, Surface):
+            of = source.max_level
+            levels.read_surface(source)
+        elif not levels.read(source) or levels.truths:
+            raise TypeError(
+                f"source must be a Framebuffer or a uint8 array of shape (height, width), not {type(source).__name__}"
+            )
+        elif palette is None and max_level < 255 and levels.highest() > max_level:
+            raise ValueError(f"source must hold levels from 0 to {max_level}, and holds {levels.highest()}")
+        if palette is not None:
+            table = pictures.palette_table(palette, max_level)
+            if levels.highest() >= len(table):
+                raise ValueError(
+                    f"palette must have a level for each of the source, and has none for {levels.highest()}"
+                )
+            levels.look_up(table)
+        elif of != max_level:
+            levels.scale(of, max_level)
+        return levels
+
+    def scroll(self, dx, dy, c):
+        """Move what is in the window."""
+        scroll(self.surface, near_pixel("dx", dx), near_pixel("dy", dy), -1 if c is None else level(self.surface, c))
+
+    # -- What reaches beyond the square that is exact: its outline, cut to the square
+
+    def _far_line(self, ends, style, dda):
+        """Draw a line between points at any distance: in whole pixels if it is thin, else in 256ths."""
+        if max(map(abs, ends)) <= clip.REACH * (1 if style.thin else 256):
+            self.segment(ends[0], ends[1], ends[2], ends[3], style, dda)
+        elif style.thin:
+            self._far_thin_path(self.surface, [256 * number for number in ends], False, style.dash, dda)
+        elif style.dash is None and style.cap != _ROUND:
+            corners = clip.thick_line(*ends, style.width, style.cap == _SQUARE)
+            self._far_polygon(corners, True, False, style)
+        else:
+            self._far_path(ends, False, style)
+
+    def _far_thin_path(self, surface, points, closed, dash, dda):
+        """Draw aliased lines of width 1 on a surface, from point to point at any distance, in 256ths."""
+        near: Numbers
+        steps = dash_steps(dash)
+        pattern: cython.p_longlong = int64s(steps)
+        period = sum(array("q", steps)) or 1
+        for piece, _, phase in clip.cut_path(points, closed, dash is not None):
+            near = points_of("points", [(number + 128) >> 8 for number in piece], 1)
+            polyline(surface, near.values, near.count, False, pattern, len(steps) // 8, (phase >> 8) % period, dda)
+
+    def _far_path(self, points, closed, style):
+        """Draw the stroke of a path between points at any distance, in 256ths."""
+        self.contours.begin()
+        period = sum(style.dash) if style.dash is not None else 1
+        for piece, distance, _ in clip.cut_path(points, closed, style.dash is not None, 2 * style.width):
+            memory = bytearray(array("q", piece))
+            self._add_piece(int64s(memory), len(piece) // 2, False, style, distance % period, False)
+        self._fill_contours(style, True)
+
+    def _far_polygon(self, corners, nonzero, covered, style):
+        """Fill a polygon with corners at any distance, in 256ths; with `covered`, its outline too."""
+        cut = clip.cut_polygon(corners)
+        memory = bytearray(array("q", cut))
+        marks: Surface = once(self.surface) if covered else self.surface
+        self._fill(marks, int64s(memory), len(cut) // 2, nonzero, style.antialias)
+        if covered:
+            self._far_thin_path(marks, corners, True, None, False)
+            painted(self.surface, marks, self.surface.top, self.surface.bottom)
+
+    def _far_shape(self, outline, grown, closed, fill, style):
+        """Draw along an outline of any size, or fill the one that is half a width larger; in 256ths."""
+        if fill:
+            self._far_polygon(outline if style.thin else grown, True, style.thin, style)
+        elif style.thin:
+            marks: Surface = once(self.surface)
+            self._far_thin_path(marks, outline, closed, style.dash, False)
+            painted(self.surface, marks, self.surface.top, self.surface.bottom)
+        else:
+            self._far_path(outline, closed, style)
+
+    def _far_box(self, numbers, fill, style):
+        """Draw a rectangle of any size."""
+        x, y, w, h, r = numbers
+        r = max(min(r, (w - 256) // 2, (h - 256) // 2), 0)
+        left, top, right, bottom = x + r, y + r, x + w - 256 - r, y + h - 256 - r
+        beyond = style.width // 2
+        corner = r + beyond if r else 0
+        edge = 0 if r else beyond
+        if w > 0 and h > 0:
+            self._far_shape(
+                clip.rounded_box(left, top, right, bottom, r, r),
+                clip.rounded_box(left - edge, top - edge, right + edge, bottom + edge, corner, corner),
+                True,
+                fill,
+                style,
+            )
+
+    def _far_ellipse(self, numbers, quadrants, fill, style):
+        """Draw quarters of an ellipse of any size."""
+        x, y, a, b = numbers
+        beyond = style.width // 2
+        if quadrants == 15:
+            grown = clip.rounded_box(x, y, x, y, a + beyond, b + beyond)
+            self._far_shape(clip.rounded_box(x, y, x, y, a, b), grown, True, fill, style)
+            return
+        sides = ((1, (0, -1), (1, 0)), (2, (-1, 0), (0, -1)), (4, (0, 1), (-1, 0)), (8, (1, 0), (0, 1)))
+        for bit, start, end in sides:
+            if quadrants & bit:
+                outline = clip.arc(x, y, a, b, start, end)
+                grown = clip.arc(x, y, a + beyond, b + beyond, start, end)
+                center = [x, y] if fill else []
+                self._far_shape(center + outline, center + grown, False, fill, style)
+
+    def _far_turn(self, numbers, start, swept, is_sector, fill, style):
+        """Draw an arc or a sector of any size."""
+        x, y, r = numbers
+        quarters = max(int(-(-swept // 90)), 1)
+        turns = [direction(start + swept * k / quarters, _FAR_UNIT) for k in range(quarters + 1)]
+        outline, grown = ([x, y], [x, y]) if is_sector else ([], [])
+        for begin, end in pairwise(turns):
+            outline += clip.arc(x, y, r, r, begin, end)
+            grown += clip.arc(x, y, r + style.width // 2, r + style.width // 2, begin, end)
+        self._far_shape(outline, grown, is_sector or swept >= 360, fill, style)
+
+
+def _in_256ths(names):
+    """Numbers of any size, each behind its name, in 256ths of a pixel."""
+    return [nearest(name, value, 256) for name, value in names]
+
+
+def _dashed_angles(start, swept, radius, dash):
+    """The arcs that a dash pattern shows, in pixels: where each begins and how far it goes on, in degrees."""
+    turn = radians(1) * radius
+    length = swept * turn
+    if dash[0] >= 256 * length or radius == 0:
+        return [(start, swept)]
+    lengths = [number / 256 for number in dash]
+    arcs = []
+    passed = 0.0
+    while passed < length:
+        for shown, left_out in zip(lengths[::2], lengths[1::2], strict=True):
+            # The pixels of both its ends count.
+            arcs.append((start + passed / turn, max(min(shown - 1, length - passed), 0.0) / turn))
+            passed += shown + left_out
+            if passed >= length:
+                break
+    return arcs
+
+
+@cython.cfunc
+def _is_flat(corners: Numbers) -> cython.bint:
+    """Whether all corners lie on one line."""
+    if corners.exact is not None:
+        return clip.is_flat(corners.exact)
+    i: cython.Py_ssize_t
+    p: cython.p_longlong = corners.values
+    dx: cython.longlong = 0
+    dy: cython.longlong = 0
+    for i in range(2, 2 * corners.count, 2):
+        if (p[i] - p[0]) * dy != (p[i + 1] - p[1]) * dx:
+            return False
+        if dx == 0 and dy == 0:
+            dx = p[i] - p[0]
+            dy = p[i + 1] - p[1]
+    return True

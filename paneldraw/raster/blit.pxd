@@ -1,0 +1,30 @@
+from paneldraw.raster.surface cimport Surface
+
+cdef class Picture:
+    cdef Py_buffer view
+    cdef bint held
+    cdef object memory
+    cdef unsigned char *start
+    cdef readonly Py_ssize_t width, height
+    cdef Py_ssize_t down, across
+    cdef readonly bint truths
+    cdef bint mapped, binary
+    cdef unsigned char[256] table
+    cdef Py_ssize_t first, target, count, rows
+
+    cdef bint read(self, object source) except? -1
+    cdef bint _read_copy(self, object source) except? -1
+    cdef object read_surface(self, Surface surface)
+    cdef int highest(self) noexcept
+    cdef object scale(self, int of, int to)
+    cdef object look_up(self, bytes levels)
+    cdef bint place(self, Surface surface, long long x, long long y) except? -1
+    cdef object _copy(self)
+
+cdef void block(
+    Surface surface, long long x1, long long y1, long long x2, long long y2, int level, int op
+) noexcept nogil
+cdef void scroll(Surface surface, long long dx, long long dy, int level) noexcept nogil
+cdef object blit(Surface surface, Picture picture, long long x, long long y, int key)
+cdef object paint_grays(Surface surface, Picture picture, long long x, long long y)
+cdef object mix(Surface surface, Picture picture, Picture opacity, long long x, long long y)

@@ -1,1 +1,0 @@
-cdef long long chord(long long a, long long b, long long y) noexcept nogil

@@ -1,0 +1,263 @@
+"""Discs and rings, of circles, ellipses and rectangles with round or sharp corners, and parts of them.
+
+Coordinates come in 256ths of a pixel. A ring is the curve drawn with some width; a disc has the same outer edge.
+A reference point on an edge is inside if the inside lies to its right or, on a horizontal edge, below. On a curve that
+is decided in floating point: for points within 1/256 of a pixel of it, the one or the other side may be taken.
+"""
+
+import cython
+from cython.cimports.libc.math import sqrt
+from cython.cimports.paneldraw.raster.floors import floored
+from cython.cimports.paneldraw.raster.thick_line import half_plane
+
+#: The length of the vectors that say where a part begins and ends.
+UNIT = 1 << 27
+_UNIT = cython.declare(cython.longlong, UNIT)
+_ENDLESS = cython.declare(cython.longlong, 1 << 61)
+
+_SQUARE = cython.declare(cython.int, 1)
+_ROUND = cython.declare(cython.int, 2)
+
+if not cython.compiled:
+    Round = type("Round", (), {})
+
+
+def disc(coverage, shape, width, part):
+    """All that the curve encloses, and half of `width` beyond it; of that what is in `part`, unless that is None."""
+    _sweep(coverage, shape, width, False, part)
+
+
+def ring(coverage, shape, width, part):
+    """The curve drawn with `width`, half on either side; of that what is in `part`, unless that is None."""
+    _sweep(coverage, shape, width, True, part)
+
+
+def _sweep(coverage, shape, width, hollow, part):
+    """Find the spans of each sub-scanline: what is across the outer edge, less what is across the inner one."""
+    outer: Round
+    inner: Round
+    middle: Round
+    ends: cython.longlong[32]
+    if not cython.compiled:
+        outer, inner, middle, ends = Round(), Round(), Round(), [0] * 32
+    to_outer: cython.pointer[Round] = cython.address(outer) if cython.compiled else outer
+    to_inner: cython.pointer[Round] = cython.address(inner) if cython.compiled else inner
+    to_middle: cython.pointer[Round] = cython.address(middle) if cython.compiled else middle
+    n: cython.longlong = coverage.n
+    half: cython.longlong = n * width
+    _grow(to_outer, shape, n, half)
+    _grow(to_middle, shape, n, 0)
+    hollow = hollow and _grow(to_inner, shape, n, -half)
+    # A square cap may reach out of the ring.
+    beyond: cython.longlong = half if part is not None and part.cap == _SQUARE else 0
+    first: cython.longlong = (outer.top - outer.b - beyond + coverage.middle + 511) >> 9
+    last: cython.longlong = (outer.bottom + outer.b + beyond + coverage.middle + 511) >> 9
+    h: cython.longlong
+    i: cython.int
+    for h in range(max(first, coverage.first), min(last, coverage.end)):
+        y: cython.longlong = 512 * h - coverage.middle
+        count: cython.int = _across(to_outer, y, ends, 0)
+        if count and hollow and _across(to_inner, y, ends, 2):
+            # From the outer edge to the inner one, and from the inner to the outer.
+            ends[1], ends[2], ends[3] = min(ends[2], ends[1]), max(ends[3], ends[0]), ends[1]
+            count = 2
+        if part is not None:
+            count = part.cut(ends, count, y, to_middle, half, n)
+        for i in range(2 * count):
+            ends[i] = (ends[i] + coverage.middle + 511) >> 9
+        coverage.spans(h, ends, count)
+
+
+def _grow(grown, shape, n, outward):
+    """The curve on the lattice, `outward` of the given one; return whether anything is inside.
+
+    The radii grow or shrink; what they cannot shrink the box does, whose corners are sharp then.
+    """
+    a: cython.longlong = outward + (0 if shape.sharp else 2 * n * shape.a)
+    b: cython.longlong = outward + (0 if shape.sharp else 2 * n * shape.b)
+    x: cython.longlong = a if shape.sharp else min(a, 0)
+    y: cython.longlong = b if shape.sharp else min(b, 0)
+    grown.a = 0 if shape.sharp else max(a, 0)
+    grown.b = 0 if shape.sharp else max(b, 0)
+    grown.left = 2 * n * shape.left - x
+    grown.top = 2 * n * shape.top - y
+    grown.right = 2 * n * shape.right + x
+    grown.bottom = 2 * n * shape.bottom + y
+    return grown.left <= grown.right and grown.top <= grown.bottom
+
+
+def _across(shape, y, ends, at):
+    """Write the ends of what is inside the curve at height `y` from place `at` on; return whether it gets there."""
+    away: cython.longlong = max(shape.top - y, y - shape.bottom, 0)
+    if away > shape.b or y >= shape.bottom + shape.b:
+        return False
+    reach: cython.double = shape.a
+    if away > 0:
+        height: cython.double = shape.b
+        share: cython.double = away
+        reach = reach * sqrt((height - share) * (height + share)) / height
+    whole: cython.longlong = floored(reach)
+    ends[at] = shape.left - whole
+    ends[at + 1] = shape.right + whole + (reach > whole)
+    return True
+
+
+@cython.final
+@cython.cclass
+class Part:
+    """A part of a disc or ring: a choice of quadrants, or the angle clockwise from one vector to another.
+
+    Parameters
+    ----------
+    quadrants : int
+        Bits counterclockwise from the top right one, with each the pixels on its axes; 0 for an angle.
+    start, end : tuple of int
+        Vectors of length `UNIT`.
+    reflex : bool
+        Whether the angle is more than half a turn.
+    spokes : bool
+        Whether bars as wide as the ring lead from the center to its two ends, joined by a dot: a sector's outline.
+    cap : int
+        What ends the ring: 0 nothing, 1 half a square, 2 half a disc.
+    """
+
+    def __init__(self, quadrants, start, end, reflex, spokes, cap):
+        self.quadrants = quadrants
+        self.start_x, self.start_y = start
+        self.end_x, self.end_y = end
+        self.reflex = reflex
+        self.spokes = spokes
+        self.cap = cap
+
+    def cut(self, ends, count, y, middle, half, n):
+        """Cut the spans of a sub-scanline; return how many there are now."""
+        i: cython.int
+        x: cython.longlong = middle.left
+        there: cython.bint = count > 0
+        first: cython.longlong = ends[0] if there else 0
+        last: cython.longlong = ends[2 * count - 1] if there else 0
+        y -= middle.top
+        for i in range(2 * count):
+            ends[i] -= x
+        count = self._quarters(ends, count, y, 256 * n) if self.quadrants else self._wedge(ends, count, y)
+        start: cython.int = count
+        if self.spokes and there:
+            for i in range(2):
+                vx: cython.longlong = self.end_x if i else self.start_x
+                vy: cython.longlong = self.end_y if i else self.start_y
+                _add_bar(ends, 2 * count, 0, y, vx, vy, _ENDLESS, half)
+                ends[2 * count] = max(ends[2 * count], first - x)
+                ends[2 * count + 1] = min(ends[2 * count + 1], last - x)
+                count += 1
+            count = _add_dot(ends, count, 0, y, half)
+        elif self.cap:
+            for i in range(2):
+                vx = self.end_x if i else self.start_x
+                vy = self.end_y if i else self.start_y
+                ex: cython.longlong = vx * middle.a // _UNIT if vx >= 0 else -(-vx * middle.a // _UNIT)
+                ey: cython.longlong = vy * middle.a // _UNIT if vy >= 0 else -(-vy * middle.a // _UNIT)
+                if self.cap == _ROUND:
+                    count = _add_dot(ends, count, ex, y - ey, half)
+                else:
+                    # Along the tangent, away from the ring.
+                    tx: cython.longlong = -vy if i else vy
+                    ty: cython.longlong = vx if i else -vx
+                    _add_bar(ends, 2 * count, ex, y - ey, tx, ty, half * _UNIT, half)
+                    count += 1
+        if count > start:
+            count = _unite(ends, count)
+        for i in range(2 * count):
+            ends[i] += x
+        return count
+
+    def _wedge(self, ends, count, y):
+        """Leave what is in the angle; a reflex one is all but the other one."""
+        k: cython.int
+        before: cython.int = count
+        bounds: cython.longlong[2]
+        if not cython.compiled:
+            bounds = [0, 0]
+        bounds[0] = -_ENDLESS
+        bounds[1] = _ENDLESS
+        if self.reflex:
+            half_plane(self.end_x, self.end_y, 0, y, bounds, 0)
+            half_plane(-self.start_x, -self.start_y, 0, y, bounds, 0)
+            if bounds[0] >= bounds[1]:
+                return count
+            for k in range(before):
+                ends[2 * count] = max(ends[2 * k], bounds[1])
+                ends[2 * count + 1] = ends[2 * k + 1]
+                ends[2 * k + 1] = min(ends[2 * k + 1], bounds[0])
+                count += 1
+            return count
+        half_plane(self.start_x, self.start_y, 0, y, bounds, 0)
+        half_plane(-self.end_x, -self.end_y, 0, y, bounds, 0)
+        for k in range(count):
+            ends[2 * k] = max(ends[2 * k], bounds[0])
+            ends[2 * k + 1] = min(ends[2 * k + 1], bounds[1])
+        return count
+
+    def _quarters(self, ends, count, y, half_pixel):
+        """Leave what is in the chosen quadrants."""
+        k: cython.int
+        above: cython.bint = y < half_pixel
+        below: cython.bint = y >= -half_pixel
+        right: cython.bint = (above and self.quadrants & 1) or (below and self.quadrants & 8)
+        left: cython.bint = (above and self.quadrants & 2) or (below and self.quadrants & 4)
+        for k in range(count):
+            if not left:
+                ends[2 * k] = max(ends[2 * k], -half_pixel)
+            if not right:
+                ends[2 * k + 1] = min(ends[2 * k + 1], half_pixel if left else -half_pixel)
+        return count
+
+
+def _add_bar(ends, at, x, y, vx, vy, length, half):
+    """Write the ends of a rectangle at height `y`: from (x, 0) on in a vector's direction, `half` to either side.
+
+    `length` comes times the vector's.
+    """
+    ends[at] = -_ENDLESS
+    ends[at + 1] = _ENDLESS
+    half_plane(vx, vy, half * _UNIT, y, ends, at)
+    half_plane(-vx, -vy, half * _UNIT, y, ends, at)
+    half_plane(vy, -vx, 0, y, ends, at)
+    half_plane(-vy, vx, length, y, ends, at)
+    ends[at] += x
+    ends[at + 1] += x
+
+
+def _add_dot(ends, count, x, y, half):
+    """Write the ends of a disc around (x, 0) at height `y` behind the others; return how many spans there are now."""
+    if abs(y) >= half:
+        return count
+    radius: cython.double = half
+    height: cython.double = y
+    reach: cython.double = sqrt((radius - height) * (radius + height))
+    whole: cython.longlong = floored(reach)
+    ends[2 * count] = x - whole
+    ends[2 * count + 1] = x + whole + (reach > whole)
+    return count + 1
+
+
+def _unite(ends, count):
+    """Let no point be in two spans: sort them, and begin each where the ones before it end."""
+    k: cython.int
+    j: cython.int
+    low: cython.longlong
+    high: cython.longlong
+    for k in range(1, count):
+        low = ends[2 * k]
+        high = ends[2 * k + 1]
+        j = k
+        while j > 0 and ends[2 * j - 2] > low:
+            ends[2 * j] = ends[2 * j - 2]
+            ends[2 * j + 1] = ends[2 * j - 1]
+            j -= 1
+        ends[2 * j] = low
+        ends[2 * j + 1] = high
+    high = ends[0]
+    for k in range(count):
+        ends[2 * k] = max(ends[2 * k], high)
+        high = max(high, ends[2 * k + 1])
+    return count

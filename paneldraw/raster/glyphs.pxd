@@ -1,0 +1,20 @@
+from paneldraw.raster.coverage cimport Coverage
+from paneldraw.raster.surface cimport Surface
+
+cdef class Glyphs:
+    cdef readonly int height, width, gap
+    cdef object kept
+    cdef int *firsts
+    cdef short *spans
+    cdef short *advances
+    cdef int[256] near
+    cdef dict far
+
+    cdef int find(self, unsigned int code) except? -1
+    cdef int measure(self, str text) except? -1
+
+cdef bint one_line(str text) except? -1
+cdef object write(Surface surface, Glyphs glyphs, str text, long long x, long long y, long long factor)
+cdef object stamp(
+    Coverage coverage, unsigned char *mask, Py_ssize_t width, Py_ssize_t height, long long x, long long y
+)

@@ -1,0 +1,193 @@
+"""Filled polygons: the spans between the edges that cross a sub-scanline.
+
+Points come in 256ths of a pixel, within +-2**25. A reference point on an edge is inside if the inside lies to its right
+or, on a horizontal edge, below: polygons that share an edge share no point and leave none out.
+"""
+
+import cython
+from cython.cimports.paneldraw.raster.floors import floored
+
+if not cython.compiled:
+    Edge = type("Edge", (), {})
+
+
+def polygon(coverage, points, ends, contours, nonzero):
+    """Fill the shape with these contours, by the non-zero rule or else by the even-odd one.
+
+    Contour k is closed and has the points (x, y) from number ``ends[k - 1]`` (0 for the first) up to ``ends[k]``. It
+    may cross itself and others.
+    """
+    i: cython.Py_ssize_t
+    total: cython.Py_ssize_t = ends[contours - 1] if contours else 0
+    n: cython.longlong = coverage.n
+    # The sub-scanlines that the shape may touch, and the rows of n sub-scanlines that hold them.
+    low: cython.longlong = coverage.end
+    high: cython.longlong = coverage.first
+    for i in range(total):
+        h: cython.longlong = (2 * n * points[2 * i + 1] + coverage.middle + 511) >> 9
+        low = min(low, h)
+        high = max(high, h)
+    low = max(low, coverage.first)
+    high = min(high, coverage.end)
+    if low >= high:
+        return
+    top: cython.longlong = (low - coverage.first) // n
+    bottom: cython.longlong = (high - 1 - coverage.first) // n + 1
+    edges: cython.pointer[Edge]
+    active: cython.pointer[cython.pointer[Edge]]
+    spans: cython.p_longlong
+    starting: cython.p_int
+    if cython.compiled:
+        room: cython.Py_ssize_t = total * (cython.sizeof(Edge) + cython.sizeof(cython.p_char))
+        room += (total + 2) * cython.sizeof(cython.longlong) + (bottom - top) * cython.sizeof(cython.int)
+        edges = cython.cast(cython.pointer(Edge), coverage.scratch(room))
+        spans = cython.cast(cython.p_longlong, edges + total)
+        active = cython.cast(cython.pointer(cython.pointer(Edge)), spans + total + 2)
+        starting = cython.cast(cython.p_int, active + total)
+    else:
+        edges = [Edge() for _ in range(total)]
+        spans = [0] * (total + 2)
+        active = [None] * total
+        starting = [0] * (bottom - top)
+    if _collect(coverage, points, ends, contours, top, bottom, edges, starting):
+        _sweep(coverage, top, bottom, nonzero, edges, starting, active, spans)
+
+
+def _collect(coverage, points, ends, contours, top, bottom, edges, starting):
+    """Find the edges that cross sub-scanlines of these rows; chain those that start in the same row; count them all."""
+    count: cython.int = 0
+    contour: cython.Py_ssize_t
+    i: cython.Py_ssize_t
+    before: cython.Py_ssize_t
+    start: cython.Py_ssize_t = 0
+    row: cython.longlong
+    n: cython.longlong = coverage.n
+    for row in range(bottom - top):
+        starting[row] = -1
+    for contour in range(contours):
+        before = ends[contour] - 1
+        for i in range(start, ends[contour]):
+            x1: cython.longlong = points[2 * before]
+            y1: cython.longlong = points[2 * before + 1]
+            x2: cython.longlong = points[2 * i]
+            y2: cython.longlong = points[2 * i + 1]
+            before = i
+            winding: cython.int = 1
+            if y2 < y1:
+                x1, y1, x2, y2 = x2, y2, x1, y1
+                winding = -1
+            # Sub-scanline h lies at 512 h - middle on the lattice.
+            first: cython.longlong = max((2 * n * y1 + coverage.middle + 511) >> 9, coverage.first + top * n)
+            end: cython.longlong = min((2 * n * y2 + coverage.middle + 511) >> 9, coverage.end)
+            if first >= end:
+                continue
+            edges[count].first = first
+            edges[count].end = end
+            edges[count].winding = winding
+            edge: cython.pointer[Edge] = cython.address(edges[count]) if cython.compiled else edges[count]
+            _place(coverage, edge, x1, y1, x2 - x1, y2 - y1)
+            row = (first - coverage.first) // n - top
+            edges[count].next = starting[row]
+            starting[row] = count
+            count += 1
+        start = ends[contour]
+    return count
+
+
+def _place(coverage, edge, x1, y1, dx, dy):
+    """Find the bound in the edge's first sub-scanline, and its step.
+
+    A bound is a whole number or at least 1 / dy away from one. It is taken a quarter of that too large, and all errors
+    of rounding are smaller, so that its whole part is exact.
+    """
+    scale: cython.longlong = 2 * coverage.n
+    one: cython.longlong = 1
+    down: cython.longlong = 512 * edge.first - coverage.middle - scale * y1
+    rest: cython.longlong = dx * down + dy * (scale * x1 + coverage.middle)
+    bound: cython.double = (((rest - 1) >> 9) + dy + 0.25) / dy
+    step: cython.double = dx / cython.cast(cython.double, dy)
+    edge.bound = floored(bound)
+    edge.step = floored(step)
+    edge.fraction = floored((bound - edge.bound) * (one << 62))
+    edge.fraction_step = floored((step - edge.step) * (one << 62))
+
+
+def _sweep(coverage, top, bottom, nonzero, edges, starting, active, spans):
+    """Keep the edges of the present row of sub-scanlines in the order of their crossings, between which spans lie."""
+    row: cython.longlong
+    h: cython.longlong
+    n: cython.longlong = coverage.n
+    crossing: cython.int = 0
+    next: cython.int
+    i: cython.int
+    j: cython.int
+    # The first sub-scanline before which no active edge ends.
+    soonest: cython.longlong = coverage.first
+    for row in range(top, bottom):
+        top_line: cython.longlong = coverage.first + row * n
+        if soonest <= top_line:
+            soonest = coverage.end
+            j = 0
+            for i in range(crossing):
+                active[j] = active[i]
+                if active[i].end > top_line:
+                    soonest = min(soonest, active[i].end)
+                    j += 1
+            crossing = j
+        next = starting[row - top]
+        while next >= 0:
+            active[crossing] = cython.address(edges[next]) if cython.compiled else edges[next]
+            soonest = min(soonest, active[crossing].end)
+            next = active[crossing].next
+            crossing += 1
+        if crossing == 0:
+            continue
+        for h in range(top_line, min(top_line + n, coverage.end)):
+            for i in range(1, crossing):
+                if active[i - 1].bound > active[i].bound:
+                    _sort(active, crossing)
+                    break
+            coverage.spans(h, spans, _spans(active, crossing, h, nonzero, spans) >> 1)
+
+
+def _spans(active, crossing, h, nonzero, spans):
+    """Write the ends of the spans of a sub-scanline, and let its edges step to the next one; return how many ends."""
+    i: cython.int
+    count: cython.int = 0
+    winding: cython.int = 0
+    one: cython.longlong = 1
+    whole: cython.longlong = (one << 62) - 1
+    for i in range(crossing):
+        edge: cython.pointer[Edge] = active[i]
+        if not edge.first <= h < edge.end:
+            continue
+        outside: cython.bint = winding == 0
+        winding += edge.winding
+        spans[count] = edge.bound
+        count += not nonzero or outside or winding == 0
+        edge.fraction += edge.fraction_step
+        edge.bound += edge.step + (edge.fraction >> 62)
+        edge.fraction &= whole
+    return count
+
+
+def _sort(active, crossing):
+    """Sort edges by their bounds.
+
+    From one sub-scanline to the next their order hardly changes: insertion sort, by way of Shell's if there are so many
+    that a new one may have far to go.
+    """
+    gap: cython.int = 1
+    i: cython.int
+    j: cython.int
+    while 9 * gap < crossing:
+        gap = 3 * gap + 1
+    while gap > 0:
+        for i in range(gap, crossing):
+            edge: cython.pointer[Edge] = active[i]
+            j = i
+            while j >= gap and active[j - gap].bound > edge.bound:
+                active[j] = active[j - gap]
+                j -= gap
+            active[j] = edge
+        gap //= 3

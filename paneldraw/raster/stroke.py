@@ -1,0 +1,423 @@
+"""Strokes: the contours of a thick path, with its joins, caps and dashes.
+
+A stroke is the union of simple pieces, a rectangle for each segment and a wedge for each join, all wound the same way;
+the non-zero rule makes one shape of them. Lengths are in 256ths of a pixel, to which the pieces' corners are rounded.
+"""
+
+import cython
+from cython.cimports.libc.math import acos, atan2, ceil, cos, floor, rint, sin, sqrt
+
+from paneldraw.raster.clip import REACH, cut_polygon
+
+#: The numbers by which `Stroke` knows a cap and a join.
+CAPS = {"butt": 0, "square": 1, "round": 2}
+JOINS = {"miter": 0, "round": 1, "bevel": 2}
+
+_BUTT = cython.declare(cython.int, 0)
+_SQUARE = cython.declare(cython.int, 1)
+_ROUND = cython.declare(cython.int, 2)
+_LIMIT = cython.declare(cython.double, 256.0 * REACH)
+_PI = cython.declare(cython.double, 3.141592653589793)
+
+# More than a filter sees beyond a surface.
+_MARGIN = cython.declare(cython.double, 1280)
+
+# How far an arc may be from its chords, and how far round caps may be from closing a gap.
+_FLAT = cython.declare(cython.double, 0.25)
+
+# Longer than any path.
+_ENDLESS = cython.declare(cython.double, 1e30)
+
+
+@cython.final
+@cython.cclass
+class Contours:
+    """A list of closed contours that grows, as `polygon` fills it. What lies far away is cut off as they are closed."""
+
+    def __init__(self):
+        self.memory = bytearray()
+        self.ends_memory = bytearray()
+        self.capacity = 0
+        self.ends_capacity = 0
+        self.begin()
+
+    def begin(self):
+        """Begin a new list, in the memory of the one before."""
+        self.count = 0
+        self.contours = 0
+        self.far = False
+        if not cython.compiled:
+            self.points = []
+            self.ends = []
+
+    def add(self, x, y):
+        """Add a point to the open contour, rounded to whole 256ths.
+
+        Halves go to the even number: two points that lie symmetrically about a whole one still do so afterwards, and
+        the edge between them runs through it, where other pieces meet this one.
+        """
+        if abs(x) > _LIMIT or abs(y) > _LIMIT:
+            self.far = True
+        if cython.compiled:
+            if self.count == self.capacity:
+                self.capacity = 2 * self.capacity + 64
+                self.memory.extend(bytes(16 * self.capacity - len(self.memory)))
+                self.points = cython.cast(cython.p_longlong, _address(self.memory))
+            self.points[2 * self.count] = cython.cast(cython.longlong, rint(x))
+            self.points[2 * self.count + 1] = cython.cast(cython.longlong, rint(y))
+        else:
+            self.points += [round(x), round(y)]
+        self.count += 1
+
+    def close(self):
+        """Close the open contour, turned clockwise as the screen shows it."""
+        i: cython.Py_ssize_t
+        start: cython.Py_ssize_t = self.ends[self.contours - 1] if self.contours else 0
+        if self.far:
+            corners = [self.points[i] for i in range(2 * start, 2 * self.count)]
+            self.count = start
+            self.far = False
+            if not cython.compiled:
+                del self.points[2 * start :]
+            corners = cut_polygon(corners)
+            for i in range(0, len(corners), 2):
+                self.add(corners[i], corners[i + 1])
+        j: cython.Py_ssize_t = self.count - 1
+        area: cython.longlong = 0
+        points: cython.p_longlong = self.points
+        for i in range(start, self.count):
+            area += points[2 * j] * points[2 * i + 1] - points[2 * i] * points[2 * j + 1]
+            j = i
+        if area < 0:
+            i, j = start, self.count - 1
+            while i < j:
+                points[2 * i], points[2 * j] = points[2 * j], points[2 * i]
+                points[2 * i + 1], points[2 * j + 1] = points[2 * j + 1], points[2 * i + 1]
+                i += 1
+                j -= 1
+        if cython.compiled:
+            if self.contours == self.ends_capacity:
+                self.ends_capacity = 2 * self.ends_capacity + 16
+                size: cython.Py_ssize_t = self.ends_capacity * cython.sizeof(cython.Py_ssize_t)
+                self.ends_memory.extend(bytes(size - len(self.ends_memory)))
+                self.ends = cython.cast(cython.p_Py_ssize_t, _address(self.ends_memory))
+            self.ends[self.contours] = self.count
+        else:
+            self.ends.append(self.count)
+        self.contours += 1
+
+
+@cython.final
+@cython.cclass
+class Stroke:
+    """Adds the pieces of strokes of one width and join to contours, exact in a square of `pixels` from (0, 0) on."""
+
+    def __init__(self, contours: Contours, width, join, pixels):
+        self.contours = contours
+        self.half = width / 2
+        self.join = join
+        self.low = -_MARGIN
+        self.high = 256 * pixels + _MARGIN
+
+    def path(self, points, count, closed, cap, end_cap):
+        """Add the stroke along `count` points (x, y), no two neighbors of which are equal.
+
+        A single point is a line of no length to the right. A closed path has three points or more, and no caps.
+        """
+        i: cython.Py_ssize_t
+        j: cython.Py_ssize_t
+        corners: cython.Py_ssize_t = count if closed else count - 1
+        # The unit vectors along the present segment and the one before it.
+        ux: cython.double = 1
+        uy: cython.double = 0
+        if count == 1:
+            self._cap(points[0], points[1], -1, 0, cap)
+            self._cap(points[0], points[1], 1, 0, end_cap)
+            return
+        for i in range(corners + closed):
+            j = 2 * ((i + 1) % count)
+            x1: cython.double = points[2 * (i % count)]
+            y1: cython.double = points[2 * (i % count) + 1]
+            vx: cython.double = ux
+            vy: cython.double = uy
+            length: cython.double = sqrt((points[j] - x1) ** 2 + (points[j + 1] - y1) ** 2)
+            ux = (points[j] - x1) / length
+            uy = (points[j + 1] - y1) / length
+            if i > 0:
+                self._corner(x1, y1, vx, vy, ux, uy)
+            elif not closed:
+                self._cap(x1, y1, -ux, -uy, cap)
+            if i < corners:
+                self._segment(x1, y1, points[j], points[j + 1], ux, uy)
+        if not closed:
+            self._cap(points[2 * count - 2], points[2 * count - 1], ux, uy, end_cap)
+
+    def _segment(self, x1, y1, x2, y2, ux, uy):
+        """Add the rectangle around a segment in the direction (ux, uy)."""
+        ux *= self.half
+        uy *= self.half
+        self.contours.add(x1 - uy, y1 + ux)
+        self.contours.add(x1 + uy, y1 - ux)
+        self.contours.add(x2 + uy, y2 - ux)
+        self.contours.add(x2 - uy, y2 + ux)
+        self.contours.close()
+
+    def _cap(self, x, y, ux, uy, cap):
+        """Add what a cap adds beyond an end point, in the direction (ux, uy)."""
+        if cap == _SQUARE:
+            self._segment(x, y, x + ux * self.half, y + uy * self.half, ux, uy)
+        elif cap == _ROUND:
+            ux *= self.half
+            uy *= self.half
+            self._fan(x, y, uy, -ux, -uy, ux, _PI)
+
+    def _corner(self, x, y, vx, vy, ux, uy):
+        """Fill the wedge on the outer side of a corner, where direction v turns into direction u."""
+        cross: cython.double = vx * uy - vy * ux
+        dot: cython.double = vx * ux + vy * uy
+        outer: cython.double = self.half if cross > 0 else -self.half
+        contours: Contours = self.contours
+        if cross == 0 and dot > 0:
+            return
+        vx, vy, ux, uy = vx * outer, vy * outer, ux * outer, uy * outer
+        if self.join == 1:
+            if cross > 0:
+                self._fan(x, y, vy, -vx, uy, -ux, atan2(abs(cross), dot))
+            else:
+                self._fan(x, y, uy, -ux, vy, -vx, atan2(abs(cross), dot))
+            return
+        contours.add(x, y)
+        contours.add(x + vy, y - vx)
+        # The miter is 1 / cos(angle / 2) half widths long; up to 4 of them it is drawn.
+        if self.join == 0 and 8 * (1 + dot) >= 1:
+            contours.add(x + (vy + uy) / (1 + dot), y - (vx + ux) / (1 + dot))
+        contours.add(x + uy, y - ux)
+        contours.close()
+
+    def _fan(self, x, y, dx, dy, ex, ey, angle):
+        """Add a circular sector from (x + dx, y + dy) clockwise to (x + ex, y + ey).
+
+        Its arc is within a quarter of a 256th where it can be seen.
+        """
+        i: cython.longlong = 0
+        jump: cython.longlong
+        steps: cython.longlong = 1
+        radius: cython.double = sqrt(dx * dx + dy * dy)
+        contours: Contours = self.contours
+        if radius > 2 * _FLAT:
+            steps = int(ceil(angle / (2 * acos(max(0.5, 1 - _FLAT / radius)))))
+        contours.add(x, y)
+        while i < steps:
+            px, py = _turned(x, y, dx, dy, angle * i / steps)
+            contours.add(px, py)
+            jump = 1
+            # What cannot be seen is left out, by steps that are as large as it is.
+            while not self._is_seen(px, px, py, py, 0) and i % (2 * jump) == 0 and i + 2 * jump <= steps:
+                qx, qy = _turned(x, y, dx, dy, angle * (i + 2 * jump) / steps)
+                rise: cython.double = radius * (1 - cos(angle * jump / steps))
+                if self._is_seen(min(px, qx), max(px, qx), min(py, qy), max(py, qy), rise):
+                    break
+                jump *= 2
+            i += jump
+        contours.add(x + ex, y + ey)
+        contours.close()
+
+    def _is_seen(self, left, right, top, bottom, margin):
+        """Whether a box, and so much around it, meets the square that can be seen."""
+        return (
+            right + margin >= self.low
+            and left - margin <= self.high
+            and bottom + margin >= self.low
+            and top - margin <= self.high
+        )
+
+    def _seen(self, points, i, cap):
+        """Between which distances from point i the dashes of its segment, and caps that end them, can be seen."""
+        length: cython.double = _length(points, i)
+        ux: cython.double = (points[2 * i + 2] - points[2 * i]) / length
+        uy: cython.double = (points[2 * i + 3] - points[2 * i + 1]) / length
+        x: cython.double = (self.low + self.high) / 2 - points[2 * i]
+        y: cython.double = (self.low + self.high) / 2 - points[2 * i + 1]
+        reach: cython.double = (self.high - self.low) / 2 * (abs(ux) + abs(uy))
+        aside: cython.double = max(abs(x * uy - y * ux) - reach, 0)
+        if aside > self.half:
+            return length, 0.0
+        if cap == _ROUND:
+            reach += sqrt(self.half**2 - aside**2)
+        first: cython.double = max(x * ux + y * uy - reach, 0)
+        last: cython.double = min(x * ux + y * uy + reach, length)
+        return (first, last) if first <= last else (length, 0.0)
+
+    def _covers_all(self, x, y):
+        """Whether all that can be seen is in a disc around a point."""
+        middle: cython.double = (self.low + self.high) / 2
+        farthest: cython.double = self.half - (self.high - self.low) * 0.75
+        return farthest > 0 and (x - middle) ** 2 + (y - middle) ** 2 < farthest**2
+
+    def dashes(self, points, count, cap, dash, distance):
+        """Add the strokes of the pieces of an open path that a dash pattern shows.
+
+        The pattern, alternately a length that is drawn and one that is left out, goes on around corners; the path
+        begins at `distance` within it. A round cap ends every piece, a square one the path. Between corners pieces
+        that cannot be seen are left out.
+        """
+        if cap == _ROUND and max(dash[1::2]) ** 2 < 8 * _FLAT * self.half:
+            # The caps close every gap.
+            dash = [_last_end(_whole_length(points, count) + distance, dash), _ENDLESS]
+        i: cython.Py_ssize_t = 0
+        k: cython.Py_ssize_t
+        period: cython.double = sum(dash)
+        inner: cython.int = _ROUND if cap == _ROUND else _BUTT
+        starts: list = [0.0, *_running_sum(dash)]
+        pairs: cython.Py_ssize_t = len(dash) // 2
+        piece = bytearray(16 * (count + 2))
+        to: cython.p_double = doubles(piece, 0)
+        # The segment from point i on reaches from `passed` to `ahead` along the path; its visible part is in between.
+        passed: cython.double = 0
+        ahead: cython.double = _length(points, 0)
+        turn: cython.double = floor(distance / period)
+        number: cython.Py_ssize_t = 0
+        while True:
+            start: cython.double = turn * period + cython.cast(cython.double, starts[2 * number]) - distance
+            end: cython.double = turn * period + cython.cast(cython.double, starts[2 * number + 1]) - distance
+            number += 1
+            if number == pairs:
+                number = 0
+                turn += 1
+            if end <= 0:
+                continue
+            while start >= ahead and i < count - 2:
+                i += 1
+                passed = ahead
+                ahead += _length(points, i)
+            if start >= ahead:
+                return
+            low, high = self._seen(points, i, cap)
+            skip: cython.double = ahead if passed + high <= start else passed + low
+            if start > 0 and end < min(skip, ahead) and number == 0:
+                # Not as far as the end of what cannot be seen, so that no piece that reaches into view is lost.
+                turn += max(floor((min(skip, ahead) - end) / period) - 1, 0)
+                continue
+            _at(points, i, max(start, 0) - passed, to)
+            if cap == _ROUND and self._covers_all(to[0], to[1]):
+                self.path(to, 1, False, cap, cap)
+                return
+            k = 1
+            while end > ahead and i < count - 2:
+                i += 1
+                passed = ahead
+                ahead += _length(points, i)
+                to[2 * k] = points[2 * i]
+                to[2 * k + 1] = points[2 * i + 1]
+                k += 1
+            _at(points, i, min(end, ahead) - passed, doubles(piece, 2 * k))
+            # Where the piece ends at a corner, it may stand there twice.
+            k += to[2 * k] != to[2 * k - 2] or to[2 * k + 1] != to[2 * k - 1]
+            if k > 1:
+                last: cython.bint = i == count - 2 and end >= ahead
+                self.path(to, k, False, cap if start <= 0 and distance == 0 else inner, cap if last else inner)
+
+
+def doubles(memory, first):
+    """The numbers that lie in a bytearray, from one on."""
+    if cython.compiled:
+        return cython.cast(cython.p_double, _address(memory)) + first
+    return memoryview(memory).cast("d")[first:]
+
+
+def distinct(values, count, points):
+    """Write points (x, y) as floating-point numbers, those that repeat the one before once; return how many."""
+    i: cython.Py_ssize_t
+    number: cython.Py_ssize_t = 0
+    for i in range(count):
+        points[2 * number] = values[2 * i]
+        points[2 * number + 1] = values[2 * i + 1]
+        if number == 0 or values[2 * i] != values[2 * i - 2] or values[2 * i + 1] != values[2 * i - 1]:
+            number += 1
+    return number
+
+
+def is_endless(points, count, closed, dash):
+    """Whether a dash is as long as a whole path, to which it then does nothing."""
+    i: cython.Py_ssize_t = 2 * count - 2
+    whole: cython.double = _whole_length(points, count)
+    if closed:
+        whole += sqrt((points[0] - points[i]) ** 2 + (points[1] - points[i + 1]) ** 2)
+    return dash >= whole
+
+
+def arc_path(x, y, radius, start, swept):
+    """Points along a circle, as many doubles in a bytearray; lengths in 256ths, angles in degrees.
+
+    Its chords are within a quarter of a 256th of it. The last point of a whole circle is not its first one; behind the
+    points there is room for another.
+    """
+    i: cython.int
+    turn: cython.double = swept * (_PI / 180)
+    steps: cython.int = 1
+    if radius > 0:
+        steps = max(int(ceil(turn / (2 * acos(max(0.5, 1 - 0.25 / radius))))), 1)
+    count: cython.int = steps if swept >= 360 else steps + 1
+    memory = bytearray(16 * (count + 1))
+    points: cython.p_double = doubles(memory, 0)
+    for i in range(count):
+        angle: cython.double = start * (_PI / 180) + turn * i / steps
+        points[2 * i] = x + radius * cos(angle)
+        points[2 * i + 1] = y + radius * sin(angle)
+    return memory
+
+
+def _length(points, i):
+    """How far it is from point i to the next."""
+    return sqrt((points[2 * i + 2] - points[2 * i]) ** 2 + (points[2 * i + 3] - points[2 * i + 1]) ** 2)
+
+
+@cython.cfunc
+def _whole_length(points: cython.p_double, count: cython.Py_ssize_t) -> cython.double:
+    """How far it is from the first point to the last."""
+    i: cython.Py_ssize_t
+    whole: cython.double = 0
+    for i in range(count - 1):
+        whole += _length(points, i)
+    return whole
+
+
+@cython.cfunc
+def _last_end(length: cython.double, dash: list) -> cython.double:
+    """Where the last dash ends that a pattern shows within a length."""
+    passed: cython.double = max(ceil(length / sum(dash)) - 1, 0) * sum(dash)
+    last: cython.double = passed
+    for shown, left_out in zip(dash[::2], dash[1::2], strict=True):
+        if passed < length:
+            last = min(passed + shown, length)
+        passed += shown + left_out
+    return last
+
+
+@cython.cfunc
+@cython.inline
+def _turned(
+    x: cython.double, y: cython.double, dx: cython.double, dy: cython.double, angle: cython.double
+) -> tuple[cython.double, cython.double]:
+    """The end of a vector from (x, y) that is turned clockwise."""
+    return x + dx * cos(angle) - dy * sin(angle), y + dx * sin(angle) + dy * cos(angle)
+
+
+@cython.cfunc
+def _at(points: cython.p_double, i: cython.Py_ssize_t, distance: cython.double, to: cython.p_double):
+    """Write the point at a distance from point i toward the next."""
+    share: cython.double = distance / _length(points, i)
+    to[0] = points[2 * i] + (points[2 * i + 2] - points[2 * i]) * share
+    to[1] = points[2 * i + 1] + (points[2 * i + 3] - points[2 * i + 1]) * share
+
+
+def _running_sum(numbers):
+    total = 0
+    for number in numbers:
+        total += number
+        yield float(total)
+
+
+@cython.cfunc
+def _address(memory: bytearray) -> cython.p_char:
+    return memory
