@@ -137,10 +137,10 @@ class Picture:
 
         It is `rows` rows of `count` bytes from ``start[first]`` on, and goes to ``pixels[target]``.
         """
-        left: cython.Py_ssize_t = max(0, surface.left - x)
-        right: cython.Py_ssize_t = min(self.width, surface.right - x)
-        top: cython.Py_ssize_t = max(0, surface.top - y)
-        bottom: cython.Py_ssize_t = min(self.height, surface.bottom - y)
+        left: cython.longlong = max(0, surface.left - x)
+        right: cython.longlong = min(self.width, surface.right - x)
+        top: cython.longlong = max(0, surface.top - y)
+        bottom: cython.longlong = min(self.height, surface.bottom - y)
         if left >= right or top >= bottom:
             return False
         if _overlap(self, surface):
@@ -215,11 +215,11 @@ def _move(
 
 def block(surface, x1, y1, x2, y2, level, op):
     """Paint the pixels ``x1 <= x < x2``, ``y1 <= y < y2`` that are in the window."""
-    y: cython.Py_ssize_t
-    left: cython.Py_ssize_t = max(x1, surface.left)
-    top: cython.Py_ssize_t = max(y1, surface.top)
-    right: cython.Py_ssize_t = min(x2, surface.right)
-    bottom: cython.Py_ssize_t = min(y2, surface.bottom)
+    y: cython.longlong
+    left: cython.longlong = max(x1, surface.left)
+    top: cython.longlong = max(y1, surface.top)
+    right: cython.longlong = min(x2, surface.right)
+    bottom: cython.longlong = min(y2, surface.bottom)
     if left >= right or top >= bottom:
         return
     if op != 0 and op != 4:

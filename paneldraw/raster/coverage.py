@@ -214,7 +214,7 @@ class Coverage:
     def row_of_spans(self, y, ends, count):
         """Take all spans of a row of pixels at once, and paint it; the spans are counted."""
         if self.partial:
-            self.row = y
+            self.row = cython.cast(cython.int, y)
             self._count(ends, count)
             self._paint_row()
             self.limit = self.first

@@ -86,10 +86,10 @@ def write(surface, glyphs, text, x, y, factor):
     character: cython.Py_UCS4
     k: cython.int
     i: cython.int
-    line: cython.Py_ssize_t
-    first: cython.Py_ssize_t
-    left: cython.Py_ssize_t
-    right: cython.Py_ssize_t
+    line: cython.longlong
+    first: cython.longlong
+    left: cython.longlong
+    right: cython.longlong
     top: cython.longlong
     spans: cython.p_short = glyphs.spans
     if y >= surface.bottom or y + glyphs.height * factor <= surface.top:

@@ -16,5 +16,5 @@ cdef class Surface:
     cdef Surface marks
 
     cdef void paint_with(self, int level, int op) noexcept nogil
-    cdef void point(self, Py_ssize_t x, Py_ssize_t y) noexcept nogil
-    cdef void span(self, Py_ssize_t y, Py_ssize_t x1, Py_ssize_t x2) noexcept nogil
+    cdef void point(self, long long x, long long y) noexcept nogil
+    cdef void span(self, long long y, long long x1, long long x2) noexcept nogil

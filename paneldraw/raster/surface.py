@@ -66,14 +66,14 @@ class Surface:
 
     def point(self, x, y):
         """Paint one pixel, if it is in the window."""
-        i: cython.Py_ssize_t
+        i: cython.longlong
         if self.left <= x < self.right and self.top <= y < self.bottom:
             i = y * self.stride + x
             self.pixels[i] = self.becomes[self.pixels[i]]
 
     def span(self, y, x1, x2):
         """Paint the pixels ``x1 <= x < x2`` of row `y` that are in the window."""
-        i: cython.Py_ssize_t
+        i: cython.longlong
         level: cython.uchar
         if not self.top <= y < self.bottom:
             return
@@ -82,7 +82,7 @@ class Surface:
         if self.op == OVER or self.op == CLEAR:
             level = self.becomes[0]
             if cython.compiled and x1 < x2:
-                memset(self.pixels + x1, level, x2 - x1)
+                memset(self.pixels + x1, level, cython.cast(cython.size_t, x2 - x1))
             elif not cython.compiled:
                 for i in range(x1, x2):
                     self.pixels[i] = level

@@ -22,7 +22,7 @@ FLAGS = (
 ALLOWED = {
     r"from '(long )*(unsigned )?int' to 'double'": "is rounded alike everywhere",
     r"from '.*' to '(short )?unsigned (char|int)'|from '.*' to 'short unsigned int'": "a level is a byte",
-    r"from 'long long int' to 'Py_ssize_t'": "a coordinate in the window, or cut to what shapes may reach",
+    r"from 'long long int' to 'Py_ssize_t'": "a place in the window, or a coordinate cut to what shapes may reach",
     r"to '(size_t|unsigned int)'.* from '(int|Py_ssize_t)'": "an amount of memory, which is not negative",
     r"to 'Py_ssize_t'.* from '(size_t|unsigned int)'": "an amount of memory, which is not half of all",
 }

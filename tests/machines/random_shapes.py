@@ -54,9 +54,11 @@ class Dice(Random):
         raise AssertionError("the shares make a hundred")
 
     def points(self, count: int) -> list[tuple[float, float]]:
-        """Return points of one reach around the middle of the framebuffer."""
+        """Return points of one reach around the middle of the framebuffer, or around where 32 bits take that for it."""
         reach = self.reach()
-        return [(WIDTH / 2 + self.within(-reach, reach), HEIGHT / 2 + self.within(-reach, reach)) for _ in range(count)]
+        x = WIDTH // 2 + self.one_of(*[0] * 20, 2**32, -(2**32))
+        y = HEIGHT // 2 + self.one_of(*[0] * 20, 2**32, -(2**32))
+        return [(x + self.within(-reach, reach), y + self.within(-reach, reach)) for _ in range(count)]
 
     def size(self) -> float:
         """Return a radius or the side of a rectangle, rarely a large one."""
@@ -201,7 +203,7 @@ class Group:
 def groups() -> Iterator[tuple[Group, int]]:
     """Yield all groups, and how many shapes each draws: with anti-aliasings of 45 kinds, few of each."""
     for depth in DEPTHS:
-        yield Group(small, depth, None), 12
+        yield Group(small, depth, None), 60
         for kind in KINDS:
             yield Group(kind, depth, None), 24
             for antialias in SMOOTH:
