@@ -10,13 +10,13 @@ import threading
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import Any, Final, Literal, NamedTuple, TypeVar, cast
+from typing import Any, Final, Literal, NamedTuple, TypeVar
 
 import numpy as np
 import numpy.typing as npt
 
 from paneldraw import urls
-from paneldraw.controllers import Controller
+from paneldraw.controllers import BUSES, Contrast, Controller
 from paneldraw.controllers.packing import PACK
 from paneldraw.errors import PanelError, TransportError
 from paneldraw.framebuffer import Framebuffer, pictures
@@ -26,9 +26,12 @@ from paneldraw.update import Planner
 Levels = npt.NDArray[np.uint8]
 T = TypeVar("T")
 OnClose = Literal["keep", "clear", "off"]
+Updates = Literal["least", "plain", "whole"]
 
 _ON_CLOSE: Final = ("keep", "clear", "off")
 _ROTATIONS: Final = (0, 90, 180, 270)
+_WIRING: Final = ("column_offset", "first_com", "com_pins")
+"""What a simulated module is wired with, beside a driver that believes it."""
 _RETRIES: Final = 2
 _PAUSE: Final = 0.002
 
@@ -93,14 +96,20 @@ class Panel:
         What carries the bytes, such as ``I2CTransport(bus=1)``. The panel closes it.
     rotate : int, optional
         Degrees by which the picture is turned clockwise: 0 (default), 90, 180 or 270.
+    contrast : int, optional
+        Brightness of lit pixels to begin with, 0 to 255. Default: what suits the chip.
     on_close : str, optional
         What `close` leaves behind: ``"keep"`` the picture (default), ``"clear"`` a black one, or a panel that is
         ``"off"``.
+    updates : str, optional
+        How pictures are sent: in the fewest bytes that the datasheet allows, ``"least"`` (default); ``"plain"``, every
+        run addressed in full, with nothing assumed of the chip's pointers, for clones that do not keep to the
+        datasheet; or ``"whole"``, every picture that differs as a whole, as plainly.
 
     Raises
     ------
     ValueError
-        An unknown `rotate` or `on_close`.
+        An unknown `rotate`, `contrast`, `on_close` or `updates`, or a chip that cannot be on this bus.
     TransportError
         The panel cannot be reached; the message says what to do.
 
@@ -116,19 +125,30 @@ class Panel:
     """
 
     def __init__(
-        self, controller: Controller, transport: Transport, *, rotate: int = 0, on_close: OnClose = "keep"
+        self,
+        controller: Controller,
+        transport: Transport,
+        *,
+        rotate: int = 0,
+        contrast: int | None = None,
+        on_close: OnClose = "keep",
+        updates: Updates = "least",
     ) -> None:
         if on_close not in _ON_CLOSE:
             raise ValueError(f"on_close must be one of {', '.join(map(repr, _ON_CLOSE))}, not {on_close!r}")
+        wire = getattr(transport, "wire", "")
+        if wire in BUSES and wire not in controller.buses:
+            buses = " or ".join(BUSES[bus] for bus in controller.buses)
+            raise ValueError(f"controller must be one that {BUSES[wire]} reaches: the {controller.name} is on {buses}")
         self.controller = controller
         self.transport = transport
         self.stats = Stats()
         self.on_close: OnClose = on_close
         self._lock = threading.RLock()
         self._closed = False
-        self._planner = Planner(controller, transport.cost)
+        self._planner = Planner(controller, transport.cost, updates)
         self._pack = PACK[controller.packing]
-        self._contrast: int | None = None
+        self._contrast = None if contrast is None else _checked_contrast(controller, contrast)
         self._inverted = False
         self._asleep = False
         self._ready = False  # the chip took its init, and nothing failed since
@@ -230,12 +250,10 @@ class Panel:
 
     def contrast(self, level: int) -> None:
         """Set the brightness of lit pixels, 0 to 255."""
-        level = operator.index(level)
-        if not 0 <= level <= 255:
-            raise ValueError(f"level must be 0 to 255, not {level!r}")
+        level = _checked_contrast(self.controller, level)
         with self._lock:
             self._contrast = level
-            self._change(self._contrast_command())
+            self._change(*(self.controller.contrast or Contrast()).commands(level))
 
     def invert(self, inverted: bool = True) -> None:
         """Show lit pixels dark and dark ones lit, or with False as they are."""
@@ -336,7 +354,7 @@ class Panel:
         chip = self.controller
         commands = [*chip.init, *([chip.inverse] if self._inverted else ())]
         if self._contrast is not None:
-            commands.append(self._contrast_command())
+            commands += chip.contrast.commands(self._contrast) if chip.contrast else ()
         self._lit = False
         sent = self._command(*([chip.resync] if chip.resync else ()), *commands)
         self._planner.restart()
@@ -375,14 +393,14 @@ class Panel:
         self._ready = True
         return Sent(wire, messages)
 
-    def _change(self, payload: bytes) -> None:
+    def _change(self, *commands: bytes) -> None:
         """Send a setting, after the picture where the panel may have lost it."""
         self._check_open()
 
         def attempt() -> None:
             if not self._ready:
                 self._restore()
-            self._command(payload)
+            self._command(*commands)
 
         self._retrying(attempt)
 
@@ -391,10 +409,6 @@ class Panel:
             self._send()
         else:
             self._start()
-
-    def _contrast_command(self) -> bytes:
-        level = round((self._contrast or 0) * self.controller.contrast_max / 255)
-        return self.controller.contrast + bytes((level,))
 
     def _leave(self) -> None:
         if self.on_close == "clear":
@@ -408,6 +422,15 @@ class Panel:
             self._command(self.controller.power_off)
         else:
             self._start()
+
+
+def _checked_contrast(controller: Controller, level: int) -> int:
+    if controller.contrast is None:
+        raise ValueError(f"contrast cannot be set: the {controller.name} has no command for it")
+    level = operator.index(level)
+    if not 0 <= level <= 255:
+        raise ValueError(f"contrast must be 0 to 255, not {level!r}")
+    return level
 
 
 def _array(source: npt.NDArray[Any], depth: int) -> tuple[Levels, int]:
@@ -434,9 +457,9 @@ def open_panel(url: str | None = None) -> Panel:
         name stands, pyserial's ``socket://host:port``, ``rfc2217://host:port`` and the like may stand, without
         ``serial://`` too; ``sim://ssd1306?size=128x64`` a simulated one, whose chip is
         ``panel.transport.bus.devices[0x3C]``. Parameters are ``chip`` (of i2c and serial; a key of
-        `paneldraw.controllers.CHIPS`, of which the SSD1322 is on SPI, so behind a board), ``size``, ``rotate``,
-        ``on_close`` and ``baudrate`` (of serial). Default: what the environment variable PANELDRAW_PANEL says, else
-        ``sim://ssd1306``.
+        `paneldraw.controllers.CHIPS`), ``size``, the chip's own ones such as ``column_offset=2``, ``com_pins=0x12`` and
+        ``mirror_x=1``, ``rotate``, ``contrast``, ``on_close`` and ``updates`` of `Panel`, ``max_message`` of i2c and
+        ``baudrate`` of serial. Default: what the environment variable PANELDRAW_PANEL says, else ``sim://ssd1306``.
 
     Raises
     ------
@@ -462,9 +485,12 @@ def open_panel(url: str | None = None) -> Panel:
             controller = wanted.controller(port.device)
         else:
             controller = wanted.controller
-            transport = _simulated(wanted) if wanted.scheme == "sim" else I2CTransport(wanted.bus, wanted.address)
+            if wanted.scheme == "sim":
+                transport = _simulated(wanted)
+            else:
+                transport = I2CTransport(wanted.bus, wanted.address, **wanted.transport)
             unless_done.callback(transport.close)
-        panel = Panel(controller, transport, rotate=wanted.rotate, on_close=cast(OnClose, wanted.on_close))
+        panel = Panel(controller, transport, **wanted.panel)
         unless_done.pop_all()
     return panel
 
@@ -473,5 +499,8 @@ def _simulated(wanted: urls.PanelURL) -> I2CTransport:
     from paneldraw import simulator  # a script with a real panel does not pay for it
 
     controller = wanted.controller
-    chip = getattr(simulator, controller.name.upper())(controller.width, controller.height)
+    wiring: dict[str, Any] = {name: wanted.module[name] for name in _WIRING if name in wanted.module}
+    if not wanted.module.get("charge_pump", True):
+        wiring["external_vcc"] = True
+    chip = getattr(simulator, controller.name.upper())(controller.width, controller.height, **wiring)
     return I2CTransport(simulator.I2CBus({wanted.address: chip}), wanted.address)

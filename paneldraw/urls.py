@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Final
 from urllib.parse import SplitResult, parse_qsl, unquote, urlencode, urlsplit
 
@@ -20,7 +20,12 @@ _FORMS: Final = {
     "sim": "sim://ssd1306?size=128x64",
 }
 _PYSERIAL: Final = ("rfc2217", "socket", "loop")
-_SERIAL: Final = ("baudrate", "chip", "size", "rotate", "on_close")
+_PANEL: Final = {"rotate": "180", "contrast": "200", "on_close": "", "updates": ""}
+"""Settings of `Panel`, each with an example where it is a number."""
+_SWITCHES: Final = ("mirror_x", "mirror_y", "charge_pump", "internal_reference", "chained_control")
+_YES: Final = {"1": True, "true": True, "yes": True, "0": False, "false": False, "no": False}
+_MODULE: Final = ("size", *dict.fromkeys(name for chip in CHIPS.values() for name in chip.parameters))
+_SERIAL: Final = ("baudrate", "chip", *_MODULE, *_PANEL)
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,17 +41,19 @@ class PanelURL:
         Number of the I2C bus or path of its device.
     address : int
         Address on the bus.
-    rotate : int
-    on_close : str
-        As the URL has them, or as `Panel` would by itself; `Panel` checks them.
+    module : dict
+        What the URL says of the module's wiring, by the names of the chip's parameters.
+    transport, panel : dict
+        Settings of the transport and of `Panel`, which check them, as the URL has them.
     """
 
     scheme: str
     controller: Controller
     bus: int | str = 1
     address: int = _ADDRESS
-    rotate: int = 0
-    on_close: str = "keep"
+    module: dict[str, Any] = field(default_factory=dict)
+    transport: dict[str, Any] = field(default_factory=dict)
+    panel: dict[str, Any] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,17 +67,15 @@ class SerialURL:
     baudrate : int, optional
         Bits a second. Default: what the board likes best.
     query : dict
-        The parameters of the panel, as they stand in the URL.
-    rotate : int
-    on_close : str
+        The parameters, as they stand in the URL.
+    panel : dict
         As in `PanelURL`.
     """
 
     port: str
     baudrate: int | None
     query: dict[str, str]
-    rotate: int = 0
-    on_close: str = "keep"
+    panel: dict[str, Any] = field(default_factory=dict)
 
     def controller(self, device: HelloReply) -> Controller:
         """Return the controller that the URL names or, where it names none, that the board says it has."""
@@ -109,10 +114,15 @@ def parse(url: str) -> PanelURL | SerialURL:
     if parts.scheme in ("serial", *_PYSERIAL):
         return _serial(parts)
     if parts.scheme == "sim":
-        query = _query(parts, "size", "rotate", "on_close")
+        query = _query(parts, *_MODULE, *_PANEL)
         if parts.path.strip("/"):
             raise ValueError(f"url must have the form {_FORMS['sim']}, not {url!r}")
-        return PanelURL("sim", _on_i2c(_controller(parts.netloc or _CHIP, query)), **_settings(query))
+        return PanelURL(
+            "sim",
+            _on_i2c(_controller(parts.netloc or _CHIP, query)),
+            module=_module(query),
+            panel=_settings(query, _PANEL),
+        )
     raise ValueError(f"url must have the form {' or '.join(_FORMS.values())}, not {url!r}")
 
 
@@ -129,7 +139,7 @@ def serial(port: str) -> SerialURL:
 
 
 def _i2c(parts: SplitResult) -> PanelURL:
-    query = _query(parts, "chip", "size", "rotate", "on_close")
+    query = _query(parts, "chip", *_MODULE, "max_message", *_PANEL)
     if parts.netloc:
         place, address = parts.netloc, parts.path.strip("/")
     else:  # i2c:///dev/i2c-1/0x3c
@@ -141,7 +151,9 @@ def _i2c(parts: SplitResult) -> PanelURL:
         _on_i2c(_controller(query.get("chip", _CHIP), query)),
         bus=int(place) if place.isdecimal() else place,
         address=_number(address, "address", "0x3c") if address else _ADDRESS,
-        **_settings(query),
+        module=_module(query),
+        transport=_settings(query, {"max_message": "32"}),
+        panel=_settings(query, _PANEL),
     )
 
 
@@ -160,9 +172,9 @@ def _serial(parts: SplitResult) -> SerialURL:
         place = unquote(place)
     query = _query(parts, *_SERIAL)
     if "chip" in query:
-        _controller(query["chip"], {name: query[name] for name in ("size",) if name in query})
+        _controller(query["chip"], query)
     rate = _number(query["baudrate"], "baudrate", "115200") if "baudrate" in query else None
-    return SerialURL(place, rate, query, **_settings(query))
+    return SerialURL(place, rate, query, _settings(query, _PANEL))
 
 
 def _query(parts: SplitResult, *known: str) -> dict[str, str]:
@@ -180,27 +192,43 @@ def _controller(chip: str, query: dict[str, str]) -> Controller:
     make = CHIPS.get(chip.lower())
     if make is None:
         raise ValueError(f"chip must be one of {', '.join(CHIPS)}, not {chip!r}")
+    for name in query:
+        if name in _MODULE and name not in ("size", *make.parameters):
+            raise ValueError(f"{name} must not be given for the {make.name}, which has {', '.join(make.parameters)}")
+    return make(*_size(query), **_module(query))
+
+
+def _size(query: dict[str, str]) -> tuple[int, ...]:
     if "size" not in query:
-        return make()
+        return ()
     width, _, height = query["size"].partition("x")
     if not (width.isdecimal() and height.isdecimal()):
         raise ValueError(f"size must be like 128x64, not {query['size']!r}")
-    return make(int(width), int(height))
+    return int(width), int(height)
+
+
+def _module(query: dict[str, str]) -> dict[str, Any]:
+    """What is said of the module beside its size."""
+    said = [name for name in query if name in _MODULE and name != "size"]
+    return {name: _switch(query, name) if name in _SWITCHES else _number(query[name], name, "2") for name in said}
 
 
 def _on_i2c(controller: Controller) -> Controller:
-    if controller.arguments_are_data:
+    if "i2c" not in controller.buses:
         raise ValueError(f"chip must be one that I2C reaches, not {controller.name!r}: it is on SPI, behind a board")
     return controller
 
 
-def _settings(query: dict[str, str]) -> dict[str, Any]:
-    settings: dict[str, Any] = {}
-    if "rotate" in query:
-        settings["rotate"] = _number(query["rotate"], "rotate", "180")
-    if "on_close" in query:
-        settings["on_close"] = query["on_close"]
-    return settings
+def _settings(query: dict[str, str], names: dict[str, str]) -> dict[str, Any]:
+    """Settings by name, as numbers where there is an example of one."""
+    said = {name: example for name, example in names.items() if name in query}
+    return {name: _number(query[name], name, example) if example else query[name] for name, example in said.items()}
+
+
+def _switch(query: dict[str, str], name: str) -> bool:
+    if query[name].lower() not in _YES:
+        raise ValueError(f"{name} must be 1 or 0, not {query[name]!r}")
+    return _YES[query[name].lower()]
 
 
 def _number(text: str, name: str, example: str) -> int:

@@ -23,8 +23,25 @@ from paneldraw.errors import ProtocolError
         ("sim://ssd1327?size=96x96", {"scheme": "sim", "controller": SSD1327(96, 96)}),
         ("i2c:///dev/i2c-7/0x3d", {"bus": "/dev/i2c-7", "address": 0x3D}),
         (
+            "i2c://1?size=100x50&column_offset=0x0e&com_pins=0x12&first_com=7&max_message=32&updates=plain&contrast=9",
+            {
+                "controller": SSD1306(100, 50, column_offset=14, com_pins=0x12, first_com=7),
+                "module": {"column_offset": 14, "com_pins": 0x12, "first_com": 7},
+                "transport": {"max_message": 32},
+                "panel": {"updates": "plain", "contrast": 9},
+            },
+        ),
+        (
+            "sim://ssd1306?mirror_x=yes&mirror_y=0&charge_pump=false&internal_reference=1",
+            {
+                "scheme": "sim",
+                "controller": SSD1306(mirror_x=True, charge_pump=False, internal_reference=True),
+                "module": {"mirror_x": True, "mirror_y": False, "charge_pump": False, "internal_reference": True},
+            },
+        ),
+        (
             "i2c://1/0x3c?chip=ssd1306&size=96x16&rotate=180&on_close=clear",
-            {"controller": SSD1306(96, 16), "rotate": 180, "on_close": "clear"},
+            {"controller": SSD1306(96, 16), "panel": {"rotate": 180, "on_close": "clear"}},
         ),
     ],
 )
@@ -50,8 +67,7 @@ def test_what_a_serial_url_asks_for(url, port, rest):
     if rest is None:
         assert wanted.baudrate == 115_200
     else:
-        found = {"baudrate": wanted.baudrate, "rotate": wanted.rotate, "on_close": wanted.on_close}
-        assert found == {"baudrate": None, "rotate": 0, "on_close": "keep", **rest}
+        assert {"baudrate": wanted.baudrate, **wanted.panel} == {"baudrate": None, **rest}
 
 
 @pytest.mark.parametrize(
@@ -86,18 +102,22 @@ def test_a_board_that_knows_nothing_of_its_panel():
         ("i2c://1/3c", "address must be a whole number, such as 0x3c"),
         ("i2c://1?chip=ssd1307", "chip must be one of ssd1306"),
         ("i2c://1?size=128*64", "size must be like 128x64"),
-        ("i2c://1?size=128x65", "128x64, 128x32"),
+        ("i2c://1?size=128x65", "1x1 to 128x64"),
+        ("i2c://1?size=100x50", "128x64, 128x32.* for another one give column_offset= and com_pins="),
+        ("i2c://1?chip=sh1106&internal_reference=1", "internal_reference must not be given for the SH1106"),
+        ("i2c://1?mirror_x=left", "mirror_x must be 1 or 0"),
+        ("i2c://1?column_offset=9", "column_offset must be 0 to 0, not 9"),
         ("i2c://1?rotate=left", "rotate must be a whole number, such as 180"),
-        ("i2c://1?colour=1", "no parameters but chip, size, rotate, on_close"),
+        ("i2c://1?colour=1", "no parameters but chip, size, column_offset, .*, rotate, contrast, on_close, updates"),
         ("i2c://1?size=128x64&size=96x16", "each parameter once"),
         ("sim://ssd1306/0x3c", "sim://ssd1306"),
-        ("sim://ssd1306?chip=ssd1306", "no parameters but size, rotate, on_close"),
+        ("sim://ssd1306?chip=ssd1306", "no parameters but size, column_offset, .*, rotate, contrast, on_close, updates"),
         ("sim://ssd1307", "chip must be one of ssd1306"),
         ("serial://", "serial:///dev/ttyACM0"),
         ("serial://COM3?baudrate=fast", "baudrate must be a whole number, such as 115200"),
         ("serial://COM3?chip=ssd1307", "chip must be one of ssd1306"),
         ("serial://COM3?chip=ssd1306&size=3x3", "128x64, 128x32"),
-        ("serial://COM3?speed=1", "no parameters but baudrate, chip, size, rotate, on_close"),
+        ("serial://COM3?speed=1", "no parameters but baudrate, chip, size, column_offset, .*, rotate"),
         ("socket://pi:7000?size=1x1&size=2x2", "each parameter once"),
     ],
 )

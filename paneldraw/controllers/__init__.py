@@ -1,22 +1,37 @@
-"""The panel chips: one module a chip family, each a record of facts."""
+"""The panel chips, each a table of facts; called, one makes the record of a module."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Final
 
-from paneldraw.controllers.record import Controller, PagePointer, Window
-from paneldraw.controllers.sh1106 import SH1106
-from paneldraw.controllers.ssd1306 import SSD1306
-from paneldraw.controllers.ssd1322 import SSD1322
-from paneldraw.controllers.ssd1327 import SSD1327
+from paneldraw.controllers.chip import Chip
+from paneldraw.controllers.gray import SSD1322, SSD1327
+from paneldraw.controllers.oled import SH1106, SSD1306, SSD1309
+from paneldraw.controllers.record import BUSES, Contrast, Controller, PagePointer, Window
 
-__all__ = ["CHIPS", "SH1106", "SSD1306", "SSD1322", "SSD1327", "Controller", "PagePointer", "Window"]
+__all__ = [
+    "BUSES",
+    "CHIPS",
+    "SH1106",
+    "SSD1306",
+    "SSD1309",
+    "SSD1322",
+    "SSD1327",
+    "Chip",
+    "Contrast",
+    "Controller",
+    "PagePointer",
+    "Window",
+]
 
-CHIPS: Final[dict[str, Callable[..., Controller]]] = {
-    "ssd1306": SSD1306,
-    "sh1106": SH1106,
-    "ssd1322": SSD1322,
-    "ssd1327": SSD1327,
+CHIPS: Final[dict[str, Chip]] = {
+    chip.name.lower(): chip
+    for chip in (
+        SSD1306,
+        SSD1309,
+        SH1106,
+        SSD1322,
+        SSD1327,
+    )
 }
-"""Chips by the name that a panel's URL uses; each makes a record, of a width and a height in pixels if given."""
+"""Chips by the name that a panel's URL uses."""

@@ -44,10 +44,9 @@ def pack_pages(levels: Any, max_level: cython.int, packed: Any) -> None:
     Parameters
     ----------
     levels : (height, width) uint8, any strides
-        The height a multiple of 8.
     max_level : int
         The highest level; the upper half of the levels is lit.
-    packed : (height / 8, width) uint8, contiguous
+    packed : (height / 8, rounded up, width) uint8, contiguous
         Where the pages go, from the top.
     """
     source, target = _rectangle(levels), _rectangle(packed)
@@ -57,7 +56,7 @@ def pack_pages(levels: Any, max_level: cython.int, packed: Any) -> None:
         first = page * width
         for x in range(first, first + width):
             pages[x] = 0
-        for row in range(8):
+        for row in range(min(8, source.height - 8 * page)):
             bit = cython.cast(cython.uchar, 1 << row)
             at = (8 * page + row) * source.down
             if source.across == 1:  # the same loop, apart: compilers make vectors of it

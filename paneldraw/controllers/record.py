@@ -7,6 +7,8 @@ from typing import Final
 
 #: Pixels that share a byte, by packing: columns and rows.
 PACKINGS: Final = {"pages": (1, 8), "nibbles": (2, 1)}
+#: Kinds of bus, by the name that a transport and a record give them.
+BUSES: Final = {"i2c": "I2C", "spi": "SPI"}
 _DEPTHS: Final = {"pages": 1, "nibbles": 4}
 
 
@@ -23,7 +25,7 @@ def commands(text: str) -> tuple[bytes, ...]:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PagePointer:
-    """One way to say where data goes: ``B0+p 00+lo 10+hi``, of which each can be sent alone.
+    """One way to say where data goes: ``B0+p 00+lo 10+hi``, of which each can be sent alone, or the like.
 
     Attributes
     ----------
@@ -31,6 +33,14 @@ class PagePointer:
         Command that selects this way; empty where the chip has no other. Default: empty.
     wraps : bool
         Whether the column pointer returns from the last RAM column to the first. Default: False.
+    row : int
+        Command of the page or row, to which its number is added. Default: ``B0``.
+    row_argument : bool
+        Whether the number follows the command as an argument instead. Default: False.
+    column : int, optional
+        Command to which the column is added. Default: none, its halves are added to ``00`` and ``10``.
+    paired : bool
+        Whether row and column are always sent together, the row first. Default: False.
 
     Examples
     --------
@@ -40,6 +50,10 @@ class PagePointer:
 
     mode: bytes = b""
     wraps: bool = False
+    row: int = 0xB0
+    row_argument: bool = False
+    column: int | None = None
+    paired: bool = False
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -72,6 +86,41 @@ class Window:
     down: bytes
     column_bytes: int = 1
     write: bytes = b""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Contrast:
+    """How a chip is told the brightness of lit pixels.
+
+    Attributes
+    ----------
+    command : bytes
+        Command that the level follows. Default: ``81``.
+    highest : int
+        The highest level. Default: 255.
+    added : bool
+        Whether the level is added to the command's last byte instead. Default: False.
+    before, after : tuple of bytes
+        Commands around it. Default: none.
+
+    Examples
+    --------
+    >>> Contrast().commands(16), Contrast(command=b"\\xe0", added=True, highest=15).commands(255)
+    ((b'\\x81\\x10',), (b'\\xef',))
+    """
+
+    command: bytes = b"\x81"
+    highest: int = 255
+    added: bool = False
+    before: tuple[bytes, ...] = ()
+    after: tuple[bytes, ...] = ()
+
+    def commands(self, level: int) -> tuple[bytes, ...]:
+        """Return the commands for a level of 0 to 255."""
+        level = round(level * self.highest / 255)
+        *head, last = self.command
+        command = bytes((*head, last + level)) if self.added else self.command + bytes((level,))
+        return *self.before, command, *self.after
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -108,10 +157,10 @@ class Controller:
         Commands that do nothing, enough of them to satisfy a command that was cut off before its arguments.
     power_on, power_off, normal, inverse : bytes
         Commands of those names.
-    contrast : bytes
-        Command that the contrast byte follows. Default: ``81``.
-    contrast_max : int
-        Largest value of that byte. Default: 255.
+    contrast : Contrast, optional
+        How it is told the brightness; None where it has none. Default: ``81`` and a byte.
+    buses : tuple of str
+        What it can be on: ``"i2c"``, ``"spi"``. Default: both.
     """
 
     name: str
@@ -132,8 +181,8 @@ class Controller:
     power_off: bytes = b"\xae"
     normal: bytes = b"\xa6"
     inverse: bytes = b"\xa7"
-    contrast: bytes = b"\x81"
-    contrast_max: int = 255
+    contrast: Contrast | None = Contrast()
+    buses: tuple[str, ...] = ("i2c", "spi")
 
     def __post_init__(self) -> None:
         if self.width < 1 or self.height < 1:
@@ -142,19 +191,19 @@ class Controller:
             raise ValueError(f"column_offset must be 0 to {self.ram_width - self.width}, not {self.column_offset}")
         if self.row_offset < 0 or self.row_offset + self.height > self.ram_height:
             raise ValueError(f"row_offset must be 0 to {self.ram_height - self.height}, not {self.row_offset}")
+        if not self.buses or not set(self.buses) <= set(BUSES):
+            raise ValueError(f"buses must be some of {', '.join(BUSES)}, not {self.buses}")
         if self.packing not in PACKINGS:
             raise ValueError(f"packing must be one of {', '.join(PACKINGS)}, not {self.packing!r}")
         if self.pointer is None and self.window is None:
             raise ValueError("pointer and window must not both be None: data must have a way")
-        if self.pointer is not None and self.packing != "pages":
-            raise ValueError(f"pointer must be None where packing is {self.packing!r}")
         if self.arguments_are_data and (self.pointer is not None or not (self.window and self.window.write)):
             raise ValueError("arguments_are_data must be False where no command of the window sets data apart")
         wide, high = self.cell
         if self.width % wide or self.column_offset % wide:
             raise ValueError(f"width {self.width} and column_offset {self.column_offset} must be multiples of {wide}")
-        if self.height % high or self.row_offset % high:
-            raise ValueError(f"height {self.height} and row_offset {self.row_offset} must be multiples of {high}")
+        if self.row_offset % high:
+            raise ValueError(f"row_offset {self.row_offset} must be a multiple of {high}")
 
     @property
     def depth(self) -> int:

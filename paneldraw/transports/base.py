@@ -74,7 +74,10 @@ class Plan:
 
 
 class Transport(Protocol):
-    """What carries bytes to a panel. A write returns the bytes that it put on the wire, or raises `TransportError`."""
+    """What carries bytes to a panel. A write returns the bytes that it put on the wire, or raises `TransportError`.
+
+    One that has an attribute ``wire``, ``"i2c"`` or ``"spi"``, is kept from chips that cannot be on such a bus.
+    """
 
     @property
     def cost(self) -> Cost:

@@ -57,6 +57,8 @@ class I2CTransport:
     3
     """
 
+    wire = "i2c"
+
     def __init__(self, bus: Any = 1, address: int = 0x3C, *, max_message: int = BYTES_A_MESSAGE) -> None:
         if isinstance(address, bool) or not isinstance(address, int):
             raise TypeError(f"address must be an int, not {address!r}")

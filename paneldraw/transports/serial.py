@@ -75,6 +75,7 @@ class SerialTransport:
     there is no port /dev/ttyACM99: plug the board in or check the name
     """
 
+    wire = "serial"
     # The headers of tokens. Those of short data are spared, which no plan would be much cheaper for knowing.
     cost = Cost(command=1, data=1)
 

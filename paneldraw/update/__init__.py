@@ -2,6 +2,6 @@
 
 from __future__ import annotations
 
-from paneldraw.update.planner import Planner
+from paneldraw.update.planner import UPDATES, Planner
 
-__all__ = ["Planner"]
+__all__ = ["UPDATES", "Planner"]

@@ -12,7 +12,8 @@ cdef class Writer:
     cdef unsigned char *old
     cdef bint known
     cdef int cell_bytes, width, height, left, top, ram_width, most_pieces
-    cdef bint has_pointer, has_window, wraps
+    cdef bint has_pointer, has_window, wraps, _paired
+    cdef int pointer_most, _row_command, _row_bytes, _column_command
     cdef tuple _modes
     cdef bytes _write
     cdef int _columns, _rows, _arguments, _longest
@@ -25,6 +26,7 @@ cdef class Writer:
     cdef Py_ssize_t *_stops
     cdef Py_ssize_t _end, messages
 
+    cdef void _set_pointer(self, object pointer)
     cdef void _make_room_for(self, int width)
     cdef void sent(self) noexcept
     cdef void forget(self) noexcept
@@ -34,9 +36,11 @@ cdef class Writer:
     cdef void rehearse(self) noexcept
     cdef int rehearsed(self) noexcept
     cdef bint windowed(self) noexcept
-    cdef int pointer_commands(self, int page, int column, int to_page, int to_column) noexcept
-    cdef void point(self, int page, int column) noexcept
-    cdef bint _pointer_byte(self, int command, bint started) noexcept
+    cdef void doubt(self) noexcept
+    cdef int pointer_bytes(self, int row, int column, int to_row, int to_column) noexcept
+    cdef void point(self, int row, int column) noexcept
+    cdef void _point_row(self, int row) noexcept
+    cdef void _pointer_byte(self, int command) noexcept
     cdef int mode_length(self, int mode) noexcept
     cdef bint columns_hold(self, int left, int right, int rows) noexcept
     cdef bint rows_hold(self, int top, int bottom, int columns) noexcept

@@ -15,6 +15,7 @@ import numpy as np
 from cython.cimports.cpython.memoryview import PyMemoryView_GET_BUFFER
 from cython.cimports.libc.string import memcpy
 
+from paneldraw.controllers.record import PagePointer
 from paneldraw.transports.base import CHAINED, COMMAND, DATA, Plan
 
 if not cython.compiled:
@@ -41,10 +42,11 @@ class Writer:
         wide, high = controller.cell
         pointer, window = controller.pointer, controller.window
         self.left, self.top = controller.column_offset // wide, controller.row_offset // high
-        self.width, self.height = controller.width // wide, controller.height // high
+        self.width, self.height = controller.width // wide, -(-controller.height // high)
         self.ram_width = controller.ram_width // wide
         self.has_pointer, self.has_window = pointer is not None, window is not None
         self.wraps = pointer is not None and pointer.wraps
+        self._set_pointer(pointer if pointer is not None else PagePointer())
         self.cell_bytes, self._columns, self._rows, self._write = 1, 0, 0, b""
         across = down = b""
         if window is not None:
@@ -59,6 +61,12 @@ class Writer:
         self._rehearsing, self._kind, self._length, self._filling = False, -1, 0, False
         self.begin()
         self.forget()
+
+    def _set_pointer(self, pointer):
+        """Take in how the page pointer is moved."""
+        self._row_command, self._row_bytes, self._paired = pointer.row, 1 + pointer.row_argument, pointer.paired
+        self._column_command = -1 if pointer.column is None else pointer.column
+        self.pointer_most = self._row_bytes + (2 if pointer.column is None else 1)
 
     def _make_room_for(self, width):
         """Make the frames and a plan of a panel of this width."""
@@ -123,17 +131,27 @@ class Writer:
         """Whether the chip is in a mode of windows."""
         return self.chip.mode == HORIZONTAL or self.chip.mode == VERTICAL
 
-    def pointer_commands(self, page, column, to_page, to_column):
-        """How many commands lead the page pointer from one place to another."""
-        if column < 0:
-            return 2 + (page != to_page)
-        return (page != to_page) + ((column ^ to_column) & 15 != 0) + (column >> 4 != to_column >> 4)
+    def doubt(self):
+        """Believe nothing of the chip's pointers and windows."""
+        self.chip.row = self.chip.column = -1
+        self.chip.left = self.chip.right = self.chip.top = self.chip.bottom = -1
 
-    def point(self, page, column):
-        """Send those of page, lower and upper half of the column pointer that do not hold."""
+    def pointer_bytes(self, row, column, to_row, to_column):
+        """How many bytes of commands lead the page pointer from one place to another."""
+        if self._paired and (row != to_row or column != to_column):
+            return self.pointer_most
+        price: cython.int = self._row_bytes if row != to_row else 0
+        if self._column_command >= 0:
+            return price + (column != to_column)
+        if column < 0:
+            return price + 2
+        return price + ((column ^ to_column) & 15 != 0) + (column >> 4 != to_column >> 4)
+
+    def point(self, row, column):
+        """Send those of row, lower and upper half of the column pointer that do not hold."""
         self.set_mode(PAGE)
         chip = cython.address(self.chip)
-        count = self.pointer_commands(chip.row, chip.column, page, column)
+        count = self.pointer_bytes(chip.row, chip.column, row, column)
         chained = (
             self._kind != _COMMAND
             and self.chained_cost >= 0
@@ -142,22 +160,32 @@ class Writer:
         if chained:
             self.finish()
         self._message(_CHAINED if chained else _COMMAND)
-        started = False
-        if chip.row != page:
-            started = self._pointer_byte(0xB0 + page, started)
-        if chip.column < 0 or (chip.column ^ column) & 15 != 0:
-            started = self._pointer_byte(column & 15, started)
-        if chip.column < 0 or chip.column >> 4 != column >> 4:
-            self._pointer_byte(0x10 + (column >> 4), started)
+        if chip.row != row or self._paired:
+            self._point_row(row)
+        if self._column_command >= 0:
+            if chip.column != column or self._paired:
+                self._pointer_byte(self._column_command + column)
+        else:
+            if chip.column < 0 or (chip.column ^ column) & 15 != 0:
+                self._pointer_byte(column & 15)
+            if chip.column < 0 or chip.column >> 4 != column >> 4:
+                self._pointer_byte(0x10 + (column >> 4))
         if chained:
             self._byte(_DATA)
-        chip.row, chip.column = page, column
+        chip.row, chip.column = row, column
 
-    def _pointer_byte(self, command, started):
-        if started and self._kind == _CHAINED:
+    def _point_row(self, row):
+        if self._row_bytes == 1:
+            self._pointer_byte(self._row_command + row)
+        else:
+            self._pointer_byte(self._row_command)
+            self._pointer_byte(row)
+
+    def _pointer_byte(self, command):
+        """Put a byte of a pointer command, behind a control byte of its own in a chained message."""
+        if self._kind == _CHAINED and self._length > 0:
             self._byte(_CHAINED)
         self._byte(command)
-        return True
 
     def mode_length(self, mode):
         """How many bytes the command of a mode has."""

@@ -33,7 +33,7 @@ from typing import TYPE_CHECKING
 
 import cython
 from cython.cimports.libc.string import memcmp
-from cython.cimports.paneldraw.update.messages import PAGE, Writer
+from cython.cimports.paneldraw.update.messages import HORIZONTAL, PAGE, Writer
 from cython.cimports.paneldraw.update.order import EXACT, IMPROVED, Order
 from cython.cimports.paneldraw.update.windows import MOST, Windows
 
@@ -41,6 +41,11 @@ if TYPE_CHECKING:
     from paneldraw.controllers import Controller
     from paneldraw.transports.base import Cost, Plan
 
+UPDATES = ("least", "plain", "whole")
+"""How much is believed of the chip."""
+
+_PLAIN = cython.declare(cython.int, 20)
+"""So many runs of two messages go out in one call of an I2C bus."""
 _INFINITY = cython.declare(cython.int, 1 << 24)
 _POINTER = cython.declare(cython.int, 0)
 _STREAM = cython.declare(cython.int, 1)
@@ -59,6 +64,10 @@ class Planner:
     controller : Controller
     cost : Cost
         What a message costs on the transport.
+    updates : str, optional
+        ``"least"`` (default): the fewest bytes. ``"plain"``: of every run page and columns are sent in full, nothing is
+        assumed of the chip's pointers and no control bytes are chained. ``"whole"``: every picture that differs is
+        sent whole, as plainly.
 
     Attributes
     ----------
@@ -68,12 +77,14 @@ class Planner:
 
     fresh = cython.declare(object, visibility="readonly")
     _memory: object
+    _plainly: cython.bint
+    _whole: cython.bint
     _writer: Writer
     _windows: Windows
     _order: Order
     _around: cython.bint
-    # Bytes of a jump by its number of pointer commands, and how far it can pay to shift its ends.
-    _jumps: cython.int[4]
+    # Bytes of a jump by those of its pointer commands, and how far it can pay to shift its ends.
+    _jumps: cython.int[5]
     _shifts: cython.int
     _count: cython.int
     # The pieces in the order of the path, and those of them that no window holds.
@@ -84,8 +95,11 @@ class Planner:
     _late: cython.int
     _early: cython.int
 
-    def __init__(self, controller: Controller, cost: Cost) -> None:
-        self._writer = w = Writer(controller, cost)
+    def __init__(self, controller: Controller, cost: Cost, updates: str = "least") -> None:
+        if updates not in UPDATES:
+            raise ValueError(f"updates must be one of {', '.join(map(repr, UPDATES))}, not {updates!r}")
+        self._plainly, self._whole = updates != "least", updates == "whole"
+        self._writer = w = Writer(controller, cost._replace(chained=None) if self._plainly else cost)
         self._windows = Windows(w)
         self._order = Order()
         self.fresh = w.fresh
@@ -96,11 +110,11 @@ class Planner:
             self._path = cython.cast(cython.p_int, cython.cast(cython.p_char, self._memory))
             self._rest = self._path + pieces
         else:
-            self._path, self._rest, self._jumps = [0] * pieces, [0] * pieces, [0] * 4
-        for commands in range(4):
-            jump = w.data_cost + (w.command_cost + commands if commands > 0 else 0)
-            self._jumps[commands] = min(jump, w.chained_cost + 2 * commands) if w.chained_cost >= 0 else jump
-        self._shifts = max(self._jumps[3] - self._jumps[1] - 1, 0)
+            self._path, self._rest, self._jumps = [0] * pieces, [0] * pieces, [0] * 5
+        for count in range(5):
+            jump = w.data_cost + (w.command_cost + count if count > 0 else 0)
+            self._jumps[count] = min(jump, w.chained_cost + 2 * count) if w.chained_cost >= 0 else jump
+        self._shifts = max(self._jumps[w.pointer_most] - self._jumps[1] - 1, 0)
 
     def plan(self) -> Plan:
         """Return the cheapest plan found from what the panel holds to `fresh`. It is valid until the next one.
@@ -111,7 +125,9 @@ class Planner:
         plan = w.plan
         w.begin()
         plan.changed = self._find_pieces()
-        if self._count > 0:
+        if self._count > 0 and self._plainly:
+            self._write_plainly()
+        elif self._count > 0:
             self._choose()
         plan.count, plan.cost = w.messages, w.total
         return plan
@@ -266,6 +282,33 @@ class Planner:
         if not paged:
             self._write_path(self._rest, flat)
 
+    @cython.cfunc
+    @cython.exceptval(check=False)
+    def _write_plainly(self) -> cython.void:
+        """Write runs, of which each says in full where it goes."""
+        w, windows = self._writer, self._windows
+        if self._whole:
+            w.known = False
+            self._find_pieces()
+        mode = cython.declare(cython.int, PAGE if w.has_pointer else HORIZONTAL)
+        if w.has_window:
+            w.chip.mode = -1
+        if mode == HORIZONTAL:
+            count = windows.grown(self._count)
+            if count > _PLAIN:
+                count = windows.bounding(self._count)
+            for i in range(count):
+                w.doubt()
+                windows.write_plainly(i)
+        else:
+            self._merge(self._jumps[w.pointer_most] if self._count <= _PLAIN else w.width)
+            for i in range(self._count):
+                piece = cython.address(windows.pieces[i])
+                w.doubt()
+                w.point(piece.row, piece.left)
+                w.cells(piece.right - piece.left)
+        w.finish()
+
     # -- Steps of the page pointer
 
     @cython.cfunc
@@ -303,7 +346,7 @@ class Planner:
                     if not self._around:
                         break
                     first += w.width
-                cost = self._jumps[w.pointer_commands(row, self._after(column, late), to_row, first)] + late + early
+                cost = self._jumps[w.pointer_bytes(row, self._after(column, late), to_row, first)] + late + early
                 if cost < best:
                     best, self._bridge, self._late, self._early = cost, -1, late, early
                     if cost <= self._jumps[1]:
@@ -326,7 +369,7 @@ class Planner:
         w = self._writer
         if w.chip.mode != PAGE:
             self._bridge, self._late, self._early = -1, 0, 0
-            return w.command_cost + w.mode_length(PAGE) + 3 + w.data_cost
+            return w.command_cost + w.mode_length(PAGE) + w.pointer_most + w.data_cost
         return self._step(w.chip.row, w.chip.column, -1, piece)
 
     # -- The path

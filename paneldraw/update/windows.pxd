@@ -33,6 +33,7 @@ cdef class Windows:
     cdef int stream_cost(self, int cells) noexcept
     cdef int cost(self, int count) noexcept
     cdef void write(self, int count) noexcept
+    cdef void write_plainly(self, int i) noexcept
     cdef int _rehearsed(self, int count, bint turned) noexcept
     cdef void _write(self, int count, bint turned) noexcept
     cdef int _next(self, int done, int count) noexcept

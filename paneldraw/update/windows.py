@@ -175,6 +175,13 @@ class Windows:
         turned = self._rehearsed(count, True)
         self._write(count, turned < _INFINITY and turned < self._rehearsed(count, False))
 
+    def write_plainly(self, i):
+        """Write a box across, from commands of its own for mode, columns and rows."""
+        box = cython.address(self.boxes[i])
+        self.writer.set_mode(HORIZONTAL)
+        self.writer.window(box.left, box.right, box.top, box.bottom)
+        self.writer.cells((box.right - box.left) * (box.bottom - box.top))
+
     def _rehearsed(self, count, turned):
         """Bytes that writing the first boxes takes in the mode that is set or, turned, in the other one."""
         if turned and (count > TURNED or not self.writer.windowed()):

@@ -1,0 +1,246 @@
+"""Chips as tables: the facts of one, and the factory that makes a `Controller` of them for one module."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from types import MappingProxyType
+from typing import Any, Final
+
+from paneldraw.controllers.record import Contrast, Controller, PagePointer, Window, commands
+
+Size = tuple[int, int]
+_NOTHING: Final[Mapping[str, Any]] = MappingProxyType({})
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Module:
+    """One module: a chip's glass, its wiring and which way up it is. What `Chip.init` and `Chip.window` are made of."""
+
+    chip: Chip
+    width: int
+    height: int
+    column_offset: int = 0
+    first_com: int = 0
+    com_pins: int = 0x12
+    clock: int = 0x80
+    charge_pump: bool = True
+    internal_reference: bool = False
+    mirror_x: bool = False
+    mirror_y: bool = False
+
+    @property
+    def multiplex(self) -> str:
+        """How many lines are driven, less one, in hex."""
+        return f"{self.height - 1:02X}"
+
+    @property
+    def segments(self) -> str:
+        """Command that maps columns to segments, in hex."""
+        return f"{self.chip.upright[0] ^ self.mirror_x:02X}"
+
+    @property
+    def _lines(self) -> int:
+        return self.chip.upright[1] ^ 8 * self.mirror_y
+
+    @property
+    def lines(self) -> str:
+        """Command of the direction of COM lines, in hex."""
+        return f"{self._lines:02X}"
+
+    @property
+    def remap(self) -> int:
+        """Argument of ``A0`` of chips that keep both directions in it."""
+        upright, mirror_x, mirror_y = self.chip.remap
+        return upright ^ mirror_x * self.mirror_x ^ mirror_y * self.mirror_y
+
+    @property
+    def offset(self) -> str:
+        """Display offset that brings the first row of the RAM to the glass's first line, in hex."""
+        upwards = bool(self._lines & 8) if not self.chip.remap[0] else bool(self.remap & self.chip.remap[2])
+        return f"{(self.first_com if upwards else -self.first_com) % self.chip.ram[1]:02X}"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Chip:
+    """What one kind of chip has, and, called, a `Controller` of it.
+
+    Attributes
+    ----------
+    name : str
+        As the datasheet has it.
+    about : str
+        What it is, in a few words.
+    ram : (int, int)
+        Columns and rows of its RAM, in pixels.
+    modules : mapping of (int, int) to mapping
+        Known sizes, the first being the default, and what is special in their wiring, by the name of an override.
+    init : callable
+        Makes of a `Module` the commands that configure it, as `record.commands` reads them.
+    overrides : tuple of str
+        What a module's wiring may differ in, beside ``column_offset``, ``mirror_x`` and ``mirror_y``.
+    upright : (int, int)
+        The commands for segments and lines under which the common module is upright. Default: ``A1 C8``.
+    remap : (int, int, int)
+        Of chips that have both in the argument of ``A0``: its value for the common module, and the bits that turn over
+        columns and lines. Default: none.
+    window : callable, optional
+        Makes of a `Module` the addressing by windows. Default: none.
+    facts : mapping
+        All else that a `Controller` says of the chip.
+
+    Examples
+    --------
+    >>> from paneldraw.controllers import SSD1306
+    >>> SSD1306.sizes[:2]
+    ((128, 64), (128, 32))
+    >>> SSD1306(64, 48).column_offset
+    32
+    """
+
+    name: str
+    about: str
+    ram: Size
+    modules: Mapping[Size, Mapping[str, Any]]
+    init: Callable[[Module], str]
+    overrides: tuple[str, ...] = ()
+    upright: tuple[int, int] = (0xA1, 0xC8)
+    remap: tuple[int, int, int] = (0, 0, 0)
+    window: Callable[[Module], Window] | None = None
+    pointer: PagePointer | None = None
+    buses: tuple[str, ...] = ("i2c", "spi")
+    contrast: Contrast | None = field(default_factory=Contrast)
+    facts: Mapping[str, Any] = field(default_factory=dict)
+
+    @property
+    def sizes(self) -> tuple[Size, ...]:
+        """Widths and heights of the modules known, in pixels; the first is the default."""
+        return tuple(self.modules)
+
+    @property
+    def parameters(self) -> tuple[str, ...]:
+        """What can be said of a module beside its size, by name."""
+        return ("column_offset", *self.overrides, "mirror_x", "mirror_y", "chained_control")
+
+    @property
+    def depth(self) -> int:
+        """Bits a pixel."""
+        return 4 if self.facts.get("packing") == "nibbles" else 1
+
+    def __call__(
+        self,
+        width: int | None = None,
+        height: int | None = None,
+        *,
+        column_offset: int | None = None,
+        first_com: int | None = None,
+        com_pins: int | None = None,
+        charge_pump: bool | None = None,
+        internal_reference: bool | None = None,
+        mirror_x: bool = False,
+        mirror_y: bool = False,
+        chained_control: bool = False,
+    ) -> Controller:
+        """Describe a module of this chip.
+
+        Parameters
+        ----------
+        width, height : int, optional
+            Visible pixels. Default: the first of `sizes`. A size that is none of them needs the offset, and the COM
+            pins where the chip has them.
+        column_offset : int, optional
+            First visible RAM column, in pixels, of the module the right way up. Default: what modules of this size
+            have.
+        first_com : int, optional
+            First COM line that the glass is on. Default: what modules of this size have.
+        com_pins : int, optional
+            Argument of ``DA``, 0x02, 0x12, 0x22 or 0x32. Default: what modules of this size have.
+        charge_pump : bool, optional
+            False where the module is fed with the panel voltage from outside. Default: True.
+        internal_reference : bool, optional
+            Send ``AD 30``, without which modules with no resistor for the current are dim. Default: what modules of
+            this size need.
+        mirror_x, mirror_y : bool, optional
+            For glass that is bonded the other way round. Default: False, the common module.
+        chained_control : bool, optional
+            Allow control bytes with the continuation bit, which genuine chips take and some clones do not. Default:
+            False.
+
+        Returns
+        -------
+        Controller
+
+        Raises
+        ------
+        ValueError
+            A size that no module has, given without its wiring; an override that the chip has not, or out of range.
+        """
+        size = self._size(width, height)
+        given = {
+            "column_offset": column_offset,
+            "first_com": first_com,
+            "com_pins": com_pins,
+            "charge_pump": charge_pump,
+            "internal_reference": internal_reference,
+        }
+        given = {name: value for name, value in given.items() if value is not None}
+        self._check(size, given)
+        known = self.modules.get(size, _NOTHING)
+        module = Module(
+            chip=self, width=size[0], height=size[1], mirror_x=mirror_x, mirror_y=mirror_y, **{**known, **given}
+        )
+        return Controller(
+            name=self.name.lower(),
+            width=module.width,
+            height=module.height,
+            init=commands(self.init(module)),
+            ram_width=self.ram[0],
+            ram_height=self.ram[1],
+            column_offset=self.ram[0] - module.width - module.column_offset if mirror_x else module.column_offset,
+            pointer=self.pointer,
+            window=self.window(module) if self.window else None,
+            chained_control=chained_control,
+            buses=self.buses,
+            contrast=self.contrast,
+            **self.facts,
+        )
+
+    def __repr__(self) -> str:
+        return f"<{self.name}: {self.about}>"
+
+    @property
+    def _needed(self) -> list[str]:
+        """What a module of an unknown size must be told."""
+        return ["column_offset", *(["com_pins"] if "com_pins" in self.overrides else [])]
+
+    def _size(self, width: int | None, height: int | None) -> Size:
+        first = self.sizes[0]
+        return (first[0] if width is None else width, first[1] if height is None else height)
+
+    def _check(self, size: Size, given: Mapping[str, Any]) -> None:
+        """Refuse what the chip cannot have, and a size of which too little is known."""
+        width, height = size
+        if not (1 <= width <= self.ram[0] and 1 <= height <= self.ram[1]):
+            most = f"{self.ram[0]}x{self.ram[1]}, which its RAM holds"
+            raise ValueError(f"size of the {self.name} must be 1x1 to {most}, not {width}x{height}")
+        for name in given:
+            if name not in (*self.overrides, "column_offset"):
+                has = ", ".join(self.parameters)
+                raise ValueError(f"{name} must not be given for the {self.name}, which has {has}")
+        if size not in self.modules and not all(name in given for name in self._needed):
+            sizes, needed = _listed(f"{w}x{h}" for w, h in self.sizes), " and ".join(f"{n}=" for n in self._needed)
+            raise ValueError(
+                f"size of the {self.name} must be {sizes}, not {width}x{height}; for another one give {needed} too"
+            )
+        offset = given.get("column_offset", 0)
+        if not 0 <= offset <= self.ram[0] - width:
+            raise ValueError(f"column_offset must be 0 to {self.ram[0] - width}, not {offset}")
+        if not 0 <= given.get("first_com", 0) < self.ram[1]:
+            raise ValueError(f"first_com must be 0 to {self.ram[1] - 1}, not {given['first_com']}")
+        if given.get("com_pins", 0x12) not in (0x02, 0x12, 0x22, 0x32):
+            raise ValueError(f"com_pins must be 0x02, 0x12, 0x22 or 0x32, not {given['com_pins']!r}")
+
+
+def _listed(names: Any) -> str:
+    *most, last = names
+    return f"{', '.join(most)} or {last}" if most else str(last)
