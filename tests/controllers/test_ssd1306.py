@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from paneldraw import Panel, simulator
-from paneldraw.controllers import SSD1306
+from paneldraw.controllers import SSD1306, SSD1327
 from paneldraw.transports import I2CTransport
 
 MODULES = {
@@ -53,8 +53,38 @@ def test_mirrored_glass(size, mirror):
 
 
 def test_a_size_that_no_module_has_names_those_that_are():
-    with pytest.raises(ValueError, match=r"128x64, 128x32, 96x16, 72x40, 64x48, 64x32, 48x64, not 64x128"):
+    sizes = "128x64, 128x32, 96x16, 72x40, 64x48, 64x32 or 48x64"
+    with pytest.raises(ValueError, match=f"{sizes}, not 100x50; for another one give column_offset= and com_pins= too"):
+        SSD1306(100, 50)
+    with pytest.raises(ValueError, match="com_pins="):
+        SSD1306(100, 50, column_offset=14)
+    with pytest.raises(ValueError, match="1x1 to 128x64, which its RAM holds, not 64x128"):
         SSD1306(64, 128)
+
+
+@pytest.mark.parametrize("updates", ["least", "plain", "whole"])
+@pytest.mark.parametrize("size", [(100, 50), (1, 1), (37, 9), (128, 39)])
+def test_any_size_that_the_ram_holds(size, updates):
+    wiring = {"column_offset": min(14, 128 - size[0]), "com_pins": 0x12}
+    chip = simulator.SSD1306(*size, **wiring)
+    panel = Panel(SSD1306(*size, **wiring), I2CTransport(simulator.I2CBus({0x3C: chip})), updates=updates)
+    random = np.random.default_rng(3)
+    for _ in range(4):
+        picture = random.integers(0, 2, size[::-1], np.uint8)
+        panel.show(picture)
+        np.testing.assert_array_equal(chip.pixels, picture)
+
+
+def test_the_first_com_line_is_brought_to_the_first_row():
+    assert b"\xd3\x10" in SSD1306(64, 32, first_com=16).init
+    assert b"\xd3\x30" in SSD1306(64, 32, first_com=16, mirror_y=True).init
+    with pytest.raises(ValueError, match="first_com must be 0 to 63, not 64"):
+        SSD1306(first_com=64)
+
+
+def test_an_override_that_the_chip_has_not_names_those_that_it_has():
+    with pytest.raises(ValueError, match="com_pins must not be given for the SSD1327, which has column_offset, first"):
+        SSD1327(com_pins=0x12)
 
 
 @pytest.mark.parametrize(
@@ -77,8 +107,9 @@ def test_external_supply_leaves_the_pump_off():
 
 
 def test_internal_reference_is_one_command_more():
-    assert b"\xad\x30" in SSD1306(72, 40, internal_reference=True).init
-    assert b"\xad\x30" not in SSD1306(72, 40).init
+    assert b"\xad\x30" in SSD1306(internal_reference=True).init
+    assert b"\xad\x30" not in SSD1306().init
+    assert b"\xad\x30" in SSD1306(72, 40).init
 
 
 def test_records_are_immutable_and_hashable():
@@ -92,13 +123,12 @@ def test_records_are_immutable_and_hashable():
     "change",
     [
         {"width": 0},
-        {"height": 60},
         {"row_offset": 4},
+        {"buses": ("parallel",)},
         {"row_offset": 8},
         {"packing": "rows"},
         {"pointer": None, "window": None},
-        {"packing": "nibbles"},
-        {"packing": "nibbles", "pointer": None, "width": 127},
+        {"packing": "nibbles", "width": 127},
     ],
 )
 def test_a_record_that_cannot_be_is_refused(change):

@@ -121,7 +121,7 @@ def test_luma_puts_the_same_bytes_there():
 
 
 @pytest.mark.parametrize(
-    ("mirror", "remap"), [((False, False), 0x06), ((True, True), 0x14), ((True, False), 0x04), ((False, True), 0x16)]
+    ("mirror", "remap"), [((False, False), 0x14), ((True, True), 0x06), ((True, False), 0x16), ((False, True), 0x04)]
 )
 def test_mirrored_glass(mirror, remap):
     controller = SSD1322(mirror_x=mirror[0], mirror_y=mirror[1])
