@@ -16,7 +16,7 @@ import numpy as np
 import numpy.typing as npt
 
 from paneldraw import urls
-from paneldraw.controllers import BUSES, Contrast, Controller
+from paneldraw.controllers import BUSES, Controller
 from paneldraw.controllers.packing import PACK
 from paneldraw.errors import PanelError, TransportError
 from paneldraw.framebuffer import Framebuffer, pictures
@@ -149,6 +149,8 @@ class Panel:
         self._planner = Planner(controller, transport.cost, updates)
         self._pack = PACK[controller.packing]
         self._contrast = None if contrast is None else _checked_contrast(controller, contrast)
+        self._drive: tuple[bytes, ...] = ()
+        self._kept: list[bytes] = []
         self._inverted = False
         self._asleep = False
         self._ready = False  # the chip took its init, and nothing failed since
@@ -253,7 +255,58 @@ class Panel:
         level = _checked_contrast(self.controller, level)
         with self._lock:
             self._contrast = level
-            self._change(*(self.controller.contrast or Contrast()).commands(level))
+            self._change(*self._brightness())
+
+    def dim(self, level: int) -> None:
+        """Set the brightness by contrast, precharge and COM voltage together: darker than contrast alone can.
+
+        Parameters
+        ----------
+        level : int
+            255 is as bright as contrast can make it. Down to 128 the contrast falls to 0; below, chips that have them
+            lower precharge and COM voltage in steps, to the darkest at 0. Chips without go by contrast alone.
+
+        Raises
+        ------
+        ValueError
+            A level out of range, or a chip without contrast.
+        """
+        level = _checked_contrast(self.controller, level)
+        steps = self.controller.drive[1:]
+        with self._lock:
+            self._contrast = max(0, 2 * level - 255) if steps else level
+            self._drive = self.controller.drive[max(0, (127 - level) * len(steps) // 128 + 1)] if steps else ()
+            self._change(*self._brightness())
+
+    def command(self, command: bytes, *, keep: bool = False) -> None:
+        """Send a command that the chip's record does not know, with its arguments.
+
+        Parameters
+        ----------
+        command : bytes
+            Opcode and arguments, as the datasheet has them. Nothing is known of them: a command that moves the chip's
+            pointers or its mode of addressing spoils the pictures that follow, until ``show(force=True)``.
+        keep : bool, optional
+            Send it again whenever the chip is started anew, after a fault or a power cut. Default: False.
+
+        Raises
+        ------
+        TypeError, ValueError
+            It is no bytes, or empty.
+
+        Examples
+        --------
+        >>> panel = open_panel("sim://ssd1306")
+        >>> panel.command(b"\xd9\x11", keep=True)  # shorter precharge
+        """
+        if not isinstance(command, (bytes, bytearray)):
+            raise TypeError(f"command must be bytes, not {type(command).__name__}")
+        if not command:
+            raise ValueError("command must not be empty")
+        with self._lock:
+            if keep:
+                self._kept.append(bytes(command))
+            self._change(bytes(command))
 
     def invert(self, inverted: bool = True) -> None:
         """Show lit pixels dark and dark ones lit, or with False as they are."""
@@ -352,9 +405,7 @@ class Panel:
     def _start(self) -> Sent:
         """Bring the chip from any state to a dark, configured one."""
         chip = self.controller
-        commands = [*chip.init, *([chip.inverse] if self._inverted else ())]
-        if self._contrast is not None:
-            commands += chip.contrast.commands(self._contrast) if chip.contrast else ()
+        commands = [*chip.init, *([chip.inverse] if self._inverted else ()), *self._brightness(), *self._kept]
         self._lit = False
         sent = self._command(*([chip.resync] if chip.resync else ()), *commands)
         self._planner.restart()
@@ -403,6 +454,12 @@ class Panel:
             self._command(*commands)
 
         self._retrying(attempt)
+
+    def _brightness(self) -> tuple[bytes, ...]:
+        """Commands for what was asked for; none where init's brightness is to stay."""
+        if self._contrast is None or self.controller.contrast is None:
+            return ()
+        return *self.controller.contrast.commands(self._contrast), *self._drive
 
     def _restore(self) -> None:
         if self._shown:

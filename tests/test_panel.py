@@ -199,6 +199,48 @@ def test_force_sends_everything_whatever_the_panel_is_thought_to_hold():
 # -- Settings
 
 
+def test_dim_goes_below_contrast_zero_and_a_recovery_keeps_it():
+    panel, chip = simulated()
+    panel.show(noise(1))
+    seen = []
+    for level in (255, 192, 128, 127, 60, 0):
+        panel.dim(level)
+        seen.append((chip.contrast, chip.registers.precharge, chip.registers.vcomh))
+    assert seen[:3] == [(255, 0xF1, 0x30), (129, 0xF1, 0x30), (1, 0xF1, 0x30)]
+    assert seen[3:] == [(0, 0xF1, 0x00), (0, 0x22, 0x00), (0, 0x11, 0x00)]
+    chip.power_cycle()
+    panel.invalidate()
+    panel.show(noise(3))
+    assert (chip.contrast, chip.registers.precharge, chip.registers.vcomh) == (0, 0x11, 0x00)
+    panel.dim(255)
+    assert (chip.contrast, chip.registers.precharge, chip.registers.vcomh) == (255, 0xF1, 0x30)
+    with pytest.raises(ValueError, match="must be 0 to 255, not 256"):
+        panel.dim(256)
+
+
+def test_a_command_of_the_users_is_sent_again_after_a_restart_if_it_is_to_be_kept():
+    panel, chip = simulated()
+    panel.command(b"\xd9\x11", keep=True)
+    panel.command(bytearray(b"\xd5\xf0"))
+    assert (chip.registers.precharge, chip.registers.clock) == (0x11, 0xF0)
+    chip.power_cycle()
+    panel.invalidate()
+    panel.show(noise(4))
+    assert (chip.registers.precharge, chip.registers.clock) == (0x11, 0x80)
+    np.testing.assert_array_equal(chip.pixels, noise(4))
+    with pytest.raises(ValueError, match="command must not be empty"):
+        panel.command(b"")
+    with pytest.raises(TypeError, match="command must be bytes, not str"):
+        panel.command("AF")
+
+
+def test_contrast_from_the_start():
+    _, chip = simulated("?contrast=7")
+    assert chip.contrast == 7
+    with pytest.raises(ValueError, match="contrast must be 0 to 255, not 300"):
+        simulated("?contrast=300")
+
+
 def test_contrast_invert_sleep_and_wake():
     panel, chip = simulated()
     picture = noise(9)

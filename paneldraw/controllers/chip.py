@@ -86,6 +86,8 @@ class Chip:
         columns and lines. Default: none.
     window : callable, optional
         Makes of a `Module` the addressing by windows. Default: none.
+    drive : callable, optional
+        Makes of a `Module` the commands for precharge and COM voltage, as init has them and ever darker. Default: none.
     facts : mapping
         All else that a `Controller` says of the chip.
 
@@ -110,6 +112,7 @@ class Chip:
     pointer: PagePointer | None = None
     buses: tuple[str, ...] = ("i2c", "spi")
     contrast: Contrast | None = field(default_factory=Contrast)
+    drive: Callable[[Module], tuple[str, ...]] | None = None
     facts: Mapping[str, Any] = field(default_factory=dict)
 
     @property
@@ -202,6 +205,7 @@ class Chip:
             chained_control=chained_control,
             buses=self.buses,
             contrast=self.contrast,
+            drive=tuple(map(commands, self.drive(module))) if self.drive else (),
             **self.facts,
         )
 

@@ -22,6 +22,7 @@ SSD1327 = Chip(
     ),
     overrides=("first_com",),
     window=_ssd1327_window,
+    drive=lambda m: ("B1 51, BC 08, BE 07", "B1 51, BC 00, BE 00", "B1 21, BC 00, BE 00", "B1 11, BC 00, BE 00"),
     facts={"packing": "nibbles", "resync": b"\xb2" * 15, "normal": b"\xa4"},
 )
 
@@ -45,5 +46,6 @@ SSD1322 = Chip(
     ),
     buses=("spi",),
     contrast=Contrast(command=b"\xc1"),
+    drive=lambda m: ("B1 E2, BB 1F, BE 07", "B1 E2, BB 00, BE 00", "B1 32, BB 00, BE 00"),
     facts={"packing": "nibbles", "arguments_are_data": True, "resync": b""},  # D/C low always begins a command
 )

@@ -39,6 +39,7 @@ SSD1306 = Chip(
     overrides=("first_com", "com_pins", "charge_pump", "internal_reference"),
     pointer=_PAGES,
     window=_windows,
+    drive=lambda m: (f"D9 {'F1' if m.charge_pump else '22'}, DB 30", "D9 F1, DB 00", "D9 22, DB 00", "D9 11, DB 00"),
 )
 
 SSD1309 = Chip(
@@ -53,6 +54,7 @@ SSD1309 = Chip(
     overrides=("first_com", "com_pins"),
     pointer=_PAGES,
     window=_windows,
+    drive=lambda m: ("D9 D3, DB 20", "D9 D3, DB 00", "D9 22, DB 00", "D9 11, DB 00"),
 )
 
 SH1106 = Chip(
@@ -66,4 +68,5 @@ SH1106 = Chip(
     ),
     overrides=("first_com", "com_pins", "charge_pump"),
     pointer=PagePointer(),
+    drive=lambda m: ("D9 22, DB 35", "D9 22, DB 00", "D9 11, DB 00"),
 )

@@ -159,6 +159,8 @@ class Controller:
         Commands of those names.
     contrast : Contrast, optional
         How it is told the brightness; None where it has none. Default: ``81`` and a byte.
+    drive : tuple of tuple of bytes
+        Commands for precharge and COM voltage, as init has them and then for steps ever darker. Default: none.
     buses : tuple of str
         What it can be on: ``"i2c"``, ``"spi"``. Default: both.
     """
@@ -182,6 +184,7 @@ class Controller:
     normal: bytes = b"\xa6"
     inverse: bytes = b"\xa7"
     contrast: Contrast | None = Contrast()
+    drive: tuple[tuple[bytes, ...], ...] = ()
     buses: tuple[str, ...] = ("i2c", "spi")
 
     def __post_init__(self) -> None:
