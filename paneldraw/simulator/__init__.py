@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 from .bus import I2CBus
 from .frames import Frame
 from .recorder import Look, contact_sheet, image, save
-from .sh1106 import SH1106
-from .ssd1306 import SSD1306
-from .ssd1327 import SSD1327
+from .sh110x import SH1106, SH1107
+from .ssd130x import SSD1306, SSD1309
+from .ssd132x import SSD1322, SSD1327
 from .terminal import TerminalView, text
 
 if TYPE_CHECKING:
@@ -17,7 +17,10 @@ if TYPE_CHECKING:
 
 __all__ = [
     "SH1106",
+    "SH1107",
     "SSD1306",
+    "SSD1309",
+    "SSD1322",
     "SSD1327",
     "Frame",
     "I2CBus",

@@ -121,6 +121,9 @@ class I2CBus:
         for address in self.devices:
             if not 0 <= address <= 0x7F:
                 raise ValueError(f"devices: {address:#x} is not a 7-bit address (0x00 to 0x7F)")
+        for device in self.devices.values():
+            if "i2c" not in (busses := getattr(device, "busses", ("i2c",))):
+                raise ValueError(f"devices: an {type(device).__name__} sits on {' or '.join(busses)}, not on I2C")
         self.clock = clock
         self.bytes = 0
         self.messages = 0

@@ -1,26 +1,33 @@
-"""What simulated chips have in common: the I2C wire comes in, frames and violations come out."""
+"""What every simulated chip has: power, the two ways that bytes reach it, frames, and what is said of the driver."""
 
 from __future__ import annotations
 
 import random
 from abc import ABC, abstractmethod
 from collections import deque
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable
+from copy import copy
+from types import SimpleNamespace
 from typing import Any, ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
-from .commands import Command
 from .frames import Frame, Picture
-from .glass import Glass
 
 _STATUS_OFF = 0x40
-_MAX_VIOLATIONS = 1000
+
+
+def written(sent: Iterable[int]) -> str:
+    """Bytes as violations and remarks spell them."""
+    return " ".join(f"{byte:02X}" for byte in sent)
+
+
+class Registers(SimpleNamespace):
+    """The registers of a chip, by name; a chip's command table says which there are."""
 
 
 class Chip(ABC):
-    """A chip with its glass. Chips say what their commands do, where data goes, and which levels the RAM holds.
+    """A chip with its glass.
 
     Attributes
     ----------
@@ -28,20 +35,29 @@ class Chip(ABC):
         One frame for every bus call (one ``i2c_rdwr`` or one SMBus call) that changed what the eye sees, unless the
         panel was dark before and after. A driver that sends a picture in several calls leaves several frames.
     violations : list of str
-        What the datasheet forbids and the chip was sent, in order; each text once, at most 1000. Clear it as you like.
+        What the chip was sent against its datasheet and what changes the picture, or may: each rule once, with the
+        bytes that broke it first. Clear it as you like.
+    remarks : list of str
+        What is merely not in the sheet, or a relative's command that the chip lets pass, in the same way.
+    registers : Registers
+        All other state, by name.
     """
 
-    max_level: ClassVar[int] = 1
-    _commands: ClassVar[Sequence[Command]]
-    registers: Any
-    _glass: Glass
+    busses: ClassVar[tuple[str, ...]] = ("i2c", "spi")
+    """The buses that the chip can sit on."""
+    max_level: int = 1
+    """The level of a fully lit pixel."""
+    reset_values: ClassVar[dict[str, Any]] = {}
+    """The registers and what reset gives them."""
 
-    def __init__(self, width: int, height: int, ram: NDArray[np.uint8], history: int | None, seed: int | None) -> None:
+    registers: Registers
+
+    def __init__(self, width: int, height: int, *, history: int | None, seed: int | None) -> None:
         self.width, self.height = width, height
         self.frames: deque[Frame] = deque(maxlen=history)
         self.violations: list[str] = []
+        self.remarks: list[str] = []
         self._random = random.Random(seed)
-        self._ram = ram
         self._seen: Picture = np.zeros((height, width), np.uint8)
         self._unframed_bytes = 0
         self.power_cycle()
@@ -50,38 +66,35 @@ class Chip(ABC):
 
     def power_cycle(self) -> None:
         """Lose power and get it back: registers at reset, RAM undefined (noise from `seed`)."""
-        noise = np.frombuffer(self._random.randbytes(self._ram.size), np.uint8)
-        self._ram[:] = self._undefined(noise).reshape(self._ram.shape)
+        self._lose_ram()
         self.reset()
 
     def reset(self) -> None:
         """Pull the reset pin: registers at reset, a half-sent command forgotten, RAM as it was."""
-        self.registers = self._registers()
-        self._pending = bytearray()
+        self.registers = Registers(**{name: copy(value) for name, value in self.reset_values.items()})
         self._picture: Picture | None = None
 
     # the wire
 
+    @abstractmethod
     def write(self, payload: bytes | bytearray | memoryview) -> None:
-        """Take one I2C write: the bytes after the address byte, control bytes included.
+        """Take one I2C write: the bytes after the address byte."""
 
-        A command whose arguments do not fit in this write waits for them in the next, as the chip does.
-        """
-        self._picture = None
-        for is_data, run in self._runs(bytes(payload)):
-            if is_data:
-                self._data(run)
-            else:
-                self._obey(run)
+    @abstractmethod
+    def transfer(self, run: bytes | bytearray | memoryview, data: bool) -> None:
+        """Take bytes over SPI, with the D/C line low (`data` False: commands) or high."""
+
+    def deselect(self) -> None:  # noqa: B027 - most chips do not care
+        """Note that the chip select of the SPI rises."""
 
     def read(self, length: int) -> bytes:
         """Answer one I2C read: the status byte, `length` times. Bit 6 is set while the display is off."""
-        return bytes([0 if self.registers.on else _STATUS_OFF]) * length
+        return bytes([self.status]) * length
 
     def settle(self, seconds: float, wire_bytes: int) -> None:
         """Note that a bus call is over: record a frame if the eye sees another picture than before.
 
-        Buses call this; call it yourself only where you call `write` without a bus.
+        Buses call this; call it yourself only where you call `write` or `transfer` without a bus.
 
         Parameters
         ----------
@@ -92,10 +105,10 @@ class Chip(ABC):
         """
         self._unframed_bytes += wire_bytes
         pixels = self.pixels
-        if not np.array_equal(pixels, self._seen):
-            self._seen = pixels
+        if pixels is not self._seen and not np.array_equal(pixels, self._seen):
             self.frames.append(Frame(pixels, seconds, self._unframed_bytes, self.max_level))
             self._unframed_bytes = 0
+        self._seen = pixels
 
     # what can be seen
 
@@ -108,80 +121,40 @@ class Chip(ABC):
         return self._picture
 
     @property
-    def ram(self) -> Picture:
-        """A copy of the RAM, uint8, as the class says."""
-        return self._ram.copy()
+    def status(self) -> int:
+        """The status byte."""
+        return 0 if self.registers.on else _STATUS_OFF
 
     @property
     def contrast(self) -> int:
-        """Contrast, 0 ... 255."""
+        """Contrast or brightness, in the chip's own steps."""
         return int(self.registers.contrast)
 
     def __repr__(self) -> str:
         power = "on" if self.registers.on else "off"
         return f"<{type(self).__name__} {self.width}x{self.height}, {power}, {len(self.frames)} frames>"
 
+    # what is to be said of the driver
+
+    def complain(self, rule: str, sent: Iterable[int] = ()) -> None:
+        """Record a violation, unless its rule was spoken already; `sent` are the bytes that broke it."""
+        _say(self.violations, rule, sent)
+
+    def remark(self, rule: str, sent: Iterable[int] = ()) -> None:
+        """Record a remark, unless it was made already."""
+        _say(self.remarks, rule, sent)
+
     # what a chip says
 
     @abstractmethod
-    def _registers(self) -> Any:
-        """Make the registers as reset leaves them."""
-
-    def _undefined(self, noise: NDArray[np.uint8]) -> NDArray[np.uint8]:
-        """What the RAM makes of noise."""
-        return noise
+    def _lose_ram(self) -> None:
+        """Fill the RAM with noise."""
 
     @abstractmethod
-    def _store(self, data: NDArray[np.uint8]) -> None:
-        """Take data into the RAM."""
-
-    @abstractmethod
-    def _levels(self) -> Picture:
-        """The RAM as levels, rows and segments."""
-
-    # inside
-
     def _look(self) -> Picture:
         """Make a picture of what an eye sees."""
-        registers = self.registers
-        if not registers.lit:
-            return np.zeros((self.height, self.width), np.uint8)
-        levels, driven = self._glass.pixels(self._levels(), registers)
-        if registers.all_on:
-            levels = np.full_like(levels, self.max_level)
-        elif registers.inverted:
-            levels = self.max_level - levels
-        return levels * driven[:, np.newaxis].astype(np.uint8)
 
-    def _complain(self, violation: str) -> None:
-        if violation not in self.violations and len(self.violations) < _MAX_VIOLATIONS:
-            self.violations.append(violation)
 
-    def _runs(self, payload: bytes) -> Iterator[tuple[bool, bytes]]:
-        """Split a write at its control bytes into (is data, bytes)."""
-        at = 0
-        while at < len(payload):
-            control = payload[at]
-            if control & 0x3F:
-                self._complain(f"control byte {control:02X}: the lower six bits are 0")
-            one_byte = bool(control & 0x80)
-            end = at + 2 if one_byte else len(payload)
-            if end > len(payload):
-                self._complain(f"control byte {control:02X}: a byte must follow, and the transaction ended")
-            yield bool(control & 0x40), payload[at + 1 : end]
-            at = end
-
-    def _obey(self, run: bytes) -> None:
-        for byte in run:
-            self._pending.append(byte)
-            command = self._commands[self._pending[0]]
-            if len(self._pending) > command.arguments:
-                command.act(self.registers, self._pending, self._complain)
-                self._pending.clear()
-
-    def _data(self, run: bytes) -> None:
-        if not run:
-            return
-        if self._pending:
-            self._complain(f"data while command {self._pending[0]:02X} waits for its arguments")
-        self._store(np.frombuffer(run, np.uint8))
+def _say(texts: list[str], rule: str, sent: Iterable[int]) -> None:
+    if not any(text.endswith(rule) for text in texts):
+        texts.append(f"{spelled}: {rule}" if (spelled := written(sent)) else rule)

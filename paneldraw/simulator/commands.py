@@ -1,116 +1,125 @@
-"""Commands as the chips of this package have them: how many arguments they take, and what they do to registers.
+"""Commands as tables: how many arguments an opcode takes, which registers it sets, and what reset gives them.
 
-A command never fails on a chip. What the datasheet forbids is handed to ``complain``, and then happens as far as
-the register's bits allow.
+A command never fails on a chip. What the datasheet forbids is said (`Chip.complain`, `Chip.remark`) and then happens as
+far as the register's bits allow.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Container, Mapping, Sequence
-from typing import Any, NamedTuple
+from collections.abc import Callable, Container, Mapping
+from dataclasses import dataclass, field
+from typing import Any
 
-Complain = Callable[[str], None]
-Act = Callable[[Any, Sequence[int], Complain], None]
+Act = Callable[[Any, bytes], None]
 
 
-class Command(NamedTuple):
-    """How many argument bytes a command takes, and what it does once they are there (the opcode is byte 0)."""
+@dataclass(frozen=True)
+class Command:
+    """One command of a chip.
+
+    Attributes
+    ----------
+    arguments : int
+        How many bytes follow the opcode.
+    act : callable
+        What it does, given the chip and all its bytes, the opcode first.
+    registers : mapping of str
+        The registers that it sets, and what reset gives them.
+    """
 
     arguments: int
     act: Act
+    registers: Mapping[str, Any] = field(default_factory=dict)
 
 
-class Setting(NamedTuple):
-    """A command whose one argument goes into one register."""
-
-    register: str
-    mask: int = 0xFF
-    legal: Container[int] = range(256)
-    rule: str = ""
+Commands = dict[int, Command]
 
 
-#: What the SSD130x, the SH110x and the SSD1327 have in common: the switches of the display.
-DISPLAY: dict[int, tuple[str, object]] = {0xAE: ("on", False), 0xAF: ("on", True)}
+def setting(
+    register: str,
+    reset: int,
+    legal: Container[int] = range(256),
+    rule: str = "",
+    *,
+    mask: int = 0xFF,
+    harmless: bool = False,
+) -> Command:
+    """One argument goes into one register; a value that is not `legal` is a violation, or a remark if `harmless`."""
 
-#: What the SSD130x and the SH110x have in common besides: how the RAM comes to the glass, and the timing.
-MIRRORS: dict[int, tuple[str, object]] = {
-    0xA0: ("segment_remap", False),
-    0xA1: ("segment_remap", True),
-    0xA4: ("all_on", False),
-    0xA5: ("all_on", True),
-    0xA6: ("inverted", False),
-    0xA7: ("inverted", True),
-    0xC0: ("com_reversed", False),
-    0xC8: ("com_reversed", True),
-}
-TIMING = {
-    0x81: Setting("contrast"),
-    0xD3: Setting("offset", 0x3F, range(64), "the display offset is 00 to 3F"),
-    0xD5: Setting("clock"),
-    0xD9: Setting(
-        "precharge",
-        legal=[n for n in range(256) if n & 0x0F and n & 0xF0],
-        rule="a precharge phase of 0 clocks is invalid",
-    ),
-}
+    def act(chip: Any, sent: bytes) -> None:
+        if sent[1] not in legal:
+            (chip.remark if harmless else chip.complain)(rule, sent)
+        setattr(chip.registers, register, sent[1] & mask)
+
+    return Command(1, act, {register: reset})
 
 
-def start_line(registers: Any, sent: Sequence[int], complain: Complain) -> None:
-    """Begin with that row of the RAM: 40 to 7F, of the SSD130x and the SH1106."""
-    registers.start_line = sent[0] & 0x3F
+def choice(register: str, reset: Any, values: Mapping[int, Any]) -> Commands:
+    """Opcodes that each give a register a value."""
+
+    def command(value: Any) -> Command:
+        return Command(0, lambda chip, sent: setattr(chip.registers, register, value), {register: reset})
+
+    return {opcode: command(value) for opcode, value in values.items()}
 
 
-def written(sent: Sequence[int]) -> str:
-    """Bytes as violations spell them."""
-    return " ".join(f"{byte:02X}" for byte in sent)
+def switch(register: str, off: int) -> Commands:
+    """An opcode that switches off, as reset does, and the next one, which switches on."""
+    return choice(register, False, {off: False, off + 1: True})
 
 
-def setting(spec: Setting) -> Act:
-    """Put the argument into a register."""
-
-    def act(registers: Any, sent: Sequence[int], complain: Complain) -> None:
-        if sent[1] not in spec.legal:
-            complain(f"{written(sent)}: {spec.rule}")
-        setattr(registers, spec.register, sent[1] & spec.mask)
-
-    return act
+def numbered(register: str, first: int, count: int, reset: int = 0) -> Commands:
+    """Opcodes in a row that carry a number in their low bits."""
+    return choice(register, reset, {first + number: number for number in range(count)})
 
 
-def flag(register: str, value: object) -> Act:
-    """Give a register a value."""
-
-    def act(registers: Any, sent: Sequence[int], complain: Complain) -> None:
-        setattr(registers, register, value)
-
-    return act
+def nothing(arguments: int = 0) -> Command:
+    """Take a command, arguments and all, that does nothing to be seen here."""
+    return Command(arguments, lambda chip, sent: None)
 
 
-def foreign(chip: str, name: str = "") -> Act:
-    """Let a command pass, argument and all, that is none of the chip's."""
-    whose = f" ({name})" if name else ""
+def relative(whose: str, arguments: int = 0, *, misleads: bool = False) -> Command:
+    """Let a command pass, arguments and all, that only relatives of the chip have.
 
-    def act(registers: Any, sent: Sequence[int], complain: Complain) -> None:
-        complain(f"{written(sent)}: not a command of the {chip}{whose}; ignored")
+    Parameters
+    ----------
+    whose : str
+        What it is there, for the remark: "charge pump of the SSD1306".
+    arguments : int
+        How many bytes follow the opcode. Default: 0.
+    misleads : bool
+        Whether who sends it counts on an effect on the picture: a violation then. Default: False.
+    """
 
-    return act
+    def act(chip: Any, sent: bytes) -> None:
+        rule = f"not a command of the {type(chip).__name__} ({whose}); ignored"
+        (chip.complain if misleads else chip.remark)(rule, sent)
+
+    return Command(arguments, act)
 
 
-def nothing(registers: Any, sent: Sequence[int], complain: Complain) -> None:
-    """Do nothing."""
+def _unknown(chip: Any, sent: bytes) -> None:
+    chip.complain(f"a command neither of the {type(chip).__name__} nor of its relatives; ignored here", sent)
 
 
-def table(
-    chip: str,
-    settings: Mapping[int, Setting],
-    flags: Mapping[int, tuple[str, object]],
-    others: Mapping[int, Command],
-) -> tuple[Command, ...]:
-    """All 256 commands of a chip; those not named are unknown to it."""
-    commands = [Command(0, foreign(chip))] * 256
-    for opcode, spec in settings.items():
-        commands[opcode] = Command(1, setting(spec))
-    for opcode, (register, value) in flags.items():
-        commands[opcode] = Command(0, flag(register, value))
-    for opcode, command in others.items():
-        commands[opcode] = command
-    return tuple(commands)
+UNKNOWN = Command(0, _unknown)
+
+
+def _display_on(chip: Any, sent: bytes) -> None:
+    chip.registers.on = True
+    if not chip.lit:
+        chip.remark(f"display on before the panel has a supply ({chip.supply_command})", sent)
+
+
+#: The switch that all displays have.
+DISPLAY: Commands = {**switch("on", 0xAE), 0xAF: Command(0, _display_on)}
+
+
+def _lock(chip: Any, sent: bytes) -> None:
+    if sent[1] not in (0x12, 0x16):
+        chip.complain("the command lock takes 12 (open) or 16 (locked)", sent)
+    chip.registers.locked = bool(sent[1] & 0x04)
+
+
+#: The command lock of later Solomon chips: while locked, they take nothing but the key.
+LOCK = Command(1, _lock, {"locked": False})

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,20 +10,33 @@ from numpy.typing import NDArray
 from .frames import Picture
 
 
+class Module(NamedTuple):
+    """How a module of one size is wired.
+
+    Attributes
+    ----------
+    column_offset : int
+        First visible RAM column, upright and without a display offset.
+    com_pins : int
+        The setting of the COM pins that the glass is wired for.
+    first_com : int
+        First COM signal that the glass uses.
+    """
+
+    column_offset: int = 0
+    com_pins: int = 0
+    first_com: int = 0
+
+
 class Scan(Protocol):
-    """The registers that say how RAM rows come onto the glass."""
-
-    multiplex: int
-    offset: int
-    start_line: int
+    """What says how RAM rows come onto the glass."""
 
     @property
-    def com_reversed(self) -> bool:
-        """Whether COM lines are reversed."""
+    def scan(self) -> tuple[int, int, int, bool, int]:
+        """Multiplex ratio less 1, display offset, start line, whether COM lines are reversed, COM pins."""
 
-    @property
-    def signals(self) -> NDArray[np.intp]:
-        """Which COM signal each pad carries."""
+    def com_signals(self, setting: int) -> NDArray[np.intp]:
+        """Which COM signal each pad carries under a setting of the COM pins."""
 
 
 def com_signals(rows: int, *, alternate: bool, swapped: bool = False) -> NDArray[np.intp]:
@@ -37,44 +50,51 @@ def com_signals(rows: int, *, alternate: bool, swapped: bool = False) -> NDArray
 
 
 class Glass:
-    """The visible lines and columns of a module, joined to fixed COM and SEG pads.
-
-    With COM lines reversed the bottom line of the glass is on the first COM signal that the module uses, and with
-    segments remapped column 0 is on the left: the common module stands upright under both.
+    """The visible lines and dots of a module, joined to fixed COM and SEG pads.
 
     Parameters
     ----------
-    width, height : int
-        Visible pixels.
-    columns : int
+    lines, dots : int
+        Visible lines, which are joined to COM pads, and pixels a line, joined to SEG pads.
+    segments : int
         Segments of the chip.
-    column_offset : int
-        First visible segment from the left.
-    signals : (rows,) int array
-        Which COM signal each pad carries under the setting that the glass is wired for.
-    first_com : int, optional
-        First COM signal that the glass uses. Default: 0.
+    first_segment : int
+        First visible segment, from the left where the module stands upright.
+    pads : int array
+        The COM pads of the lines, in order of their signals under the setting that the glass is wired for.
+    remapped, com_reversed : bool
+        Under which segment remap and which direction of the COM lines the module stands upright.
     """
 
     def __init__(
         self,
-        width: int,
-        height: int,
+        lines: int,
+        dots: int,
         *,
-        columns: int,
-        column_offset: int,
-        signals: NDArray[np.intp],
-        first_com: int = 0,
+        segments: int,
+        first_segment: int,
+        pads: NDArray[np.intp],
+        remapped: bool,
+        com_reversed: bool,
     ) -> None:
-        left = columns - 1 - column_offset
-        self._segments = np.arange(left, left - width, -1)
-        pads = np.argsort(signals)
-        self._pads = pads[first_com : first_com + height][::-1]
+        left = segments - 1 - first_segment
+        stop = left - dots if left >= dots else None
+        self._segments = slice(left, stop, -1) if remapped else slice(first_segment, first_segment + dots)
+        self._pads = pads[::-1] if com_reversed else pads
+        self._known: tuple[tuple[int, ...], NDArray[np.intp], NDArray[np.bool_] | None] | None = None
 
-    def pixels(self, levels: Picture, scan: Scan) -> tuple[Picture, NDArray[np.bool_]]:
-        """Bring levels (rows, segments) onto the glass; return them and which lines are driven at all."""
-        signals = scan.signals[self._pads]
-        lines = scan.multiplex - signals if scan.com_reversed else signals
-        rows = (lines + scan.offset) % len(levels)
-        seen = levels[(rows + scan.start_line) % len(levels)][:, self._segments]
-        return seen, rows <= scan.multiplex
+    def pixels(self, levels: Picture, chip: Scan) -> tuple[Picture, NDArray[np.bool_] | None]:
+        """Bring levels (rows, segments) onto the glass; return them and which lines are dark, if any, come what may."""
+        scan = chip.scan
+        if self._known is None or self._known[0] != scan:
+            self._known = (scan, *self._rows(len(levels), chip))
+        _, rows, dark = self._known
+        return levels[:, self._segments].take(rows, axis=0), dark
+
+    def _rows(self, count: int, chip: Scan) -> tuple[NDArray[np.intp], NDArray[np.bool_] | None]:
+        multiplex, offset, start_line, com_reversed, setting = chip.scan
+        signals = chip.com_signals(setting)[self._pads]
+        lines = multiplex - signals if com_reversed else signals
+        rows = (lines + offset) % count
+        dark = rows > multiplex
+        return (rows + start_line) % count, dark if dark.any() else None

@@ -36,7 +36,7 @@ def test_init_sets_what_a_module_of_this_size_needs(size):
     assert (registers.start_line, registers.offset) == (0, 0)
     assert registers.segment_remap
     assert registers.com_reversed
-    assert registers.pump_enabled
+    assert registers.charge_pump & 0x04
     assert (registers.on, registers.inverted, registers.all_on) == (False, False, False)
     assert chip.violations == []
 
@@ -103,7 +103,7 @@ def test_a_misspelled_override_is_an_error():
 
 def test_external_supply_leaves_the_pump_off():
     chip = initialized(SSD1306(charge_pump=False))
-    assert not chip.registers.pump_enabled
+    assert not chip.registers.charge_pump & 0x04
 
 
 def test_internal_reference_is_one_command_more():

@@ -39,7 +39,7 @@ def test_data_past_the_last_column_is_lost_and_recorded() -> None:
     before = chip.ram
     commands(chip, "B3 03 18")
     chip.write(b"\x40\xaa\xbb")
-    assert chip.violations == ["data past column 131"]
+    assert chip.violations == ["data past column 131 is lost"]
     assert np.count_nonzero(chip.ram != before) <= 1
 
 
@@ -61,19 +61,39 @@ def test_a_picture_starts_at_column_2() -> None:
 @pytest.mark.parametrize(
     ("sent", "text"),
     [
-        ("20 02", "20: not a command of the SH1106 (addressing of the SSD1306); ignored"),
-        ("21", "21: not a command"),
-        ("8D", "8D: not a command of the SH1106 (charge pump of the SSD1306)"),
-        ("AD 14", "AD 14: the DC-DC converter takes 8A"),
-        ("AD 8A", "AD 8A: the DC-DC converter is switched while the display is off"),
-        ("EE", "EE: the end of a read-modify-write that was not begun"),
-        ("D9 20", "D9 20: a precharge phase of 0 clocks"),
+        ("21 00 7F", "21 00 7F: not a command of the SH1106 (windows of the SSD1306)"),
+        ("A8 40", "A8 40: the multiplex ratio is 00 to 3F"),
     ],
 )
-def test_what_the_datasheet_forbids(sent: str, text: str) -> None:
+def test_what_endangers_the_picture(sent: str, text: str) -> None:
     chip = started()
     commands(chip, sent)
-    assert any(violation.startswith(text) for violation in chip.violations)
+    assert [violation.startswith(text) for violation in chip.violations] == [True]
+    assert chip.remarks == []
+
+
+@pytest.mark.parametrize(
+    ("sent", "text"),
+    [
+        ("20 02", "20 02: not a command of the SH1106 (addressing mode of the SSD1306); ignored"),
+        ("8D 14", "8D 14: not a command of the SH1106 (charge pump of the SSD1306)"),
+        ("AD 30", "AD 30: the DC-DC converter takes 8A"),
+        ("AD 8A", "AD 8A: the DC-DC converter is switched while the display is off"),
+        ("D9 20", "D9 20: a precharge phase of 0 clocks"),
+        ("EE", "EE: the end of a read-modify-write that was not begun"),
+    ],
+)
+def test_what_is_merely_not_in_the_sheet(sent: str, text: str) -> None:
+    chip = started()
+    commands(chip, sent)
+    assert [remark.startswith(text) for remark in chip.remarks] == [True]
+    assert chip.violations == []
+
+
+def test_a_reference_current_meant_for_another_chip_leaves_it_lit() -> None:
+    chip = started()
+    commands(chip, "A5 AD 30")
+    assert chip.pixels.all()
 
 
 def test_read_modify_write_returns_to_its_column() -> None:
@@ -117,4 +137,8 @@ def test_luma(monkeypatch: pytest.MonkeyPatch) -> None:
         assert (bus.bytes - before[0], bus.messages - before[1]) == (8 * (5 + 130), 16)
     device.contrast(0x21)
     assert chip.contrast == 0x21
-    assert "20: not a command of the SH1106 (addressing of the SSD1306); ignored" in chip.violations
+    assert chip.violations == []
+    assert chip.remarks == [
+        "20 10: not a command of the SH1106 (addressing mode of the SSD1306); ignored",
+        "8D 14: not a command of the SH1106 (charge pump of the SSD1306); ignored",
+    ]

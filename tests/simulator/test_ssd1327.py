@@ -117,7 +117,7 @@ def test_a_locked_chip_takes_nothing_but_the_key() -> None:
     commands(chip, "FD 16 81 22 AE")
     assert chip.contrast == 0x7F
     assert chip.registers.on
-    assert chip.violations[0] == "81: commands are locked; send FD 12 first"
+    assert chip.violations[0] == "81 22: commands are locked; send FD 12 first"
     commands(chip, "FD 12 81 22")
     assert chip.contrast == 0x22
 
@@ -126,10 +126,10 @@ def test_a_locked_chip_takes_nothing_but_the_key() -> None:
     ("sent", "text"),
     [
         ("15 00 40", "15 00 40: there is no column past 63"),
-        ("75 05 04", "75 05 04: the window starts at row 5, after its end at 4"),
+        ("75 05 04", "75 05 04: the window starts after its end, at the rows"),
         ("A0 59", "A0 59: bits 3, 5 and 7 of the remap are 0"),
         ("A8 0E", "A8 0E: the multiplex ratio"),
-        ("20", "20: not a command of the SSD1327; ignored"),
+        ("20", "20: a command neither of the SSD1327 nor of its relatives"),
         ("2F", "2F: a scroll is started and none was set up"),
         ("FD 13", "FD 13: the command lock takes"),
     ],

@@ -1,0 +1,353 @@
+"""A chip that commands and data reach apart: registers by a command table, a RAM behind a pointer, and a glass."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any, ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .addressing import DOWN, PAGE, PAGES, Bytes, Counter, Packing, fill, levels
+from .chip import Chip
+from .commands import UNKNOWN, Command, Commands
+from .frames import Picture
+from .glass import Glass, Module, com_signals
+
+
+class DisplayChip(Chip):
+    """A chip of which class attributes say all that is its own.
+
+    Parameters
+    ----------
+    width, height : int, optional
+        Visible size in pixels. Default: the first of `modules`.
+    column_offset : int, optional
+        First visible RAM column, upright and without a display offset. Default: as modules of that size are wired.
+    com_pins : int, optional
+        The setting of the COM pins that the glass is wired for: one of `com_pin_settings`. Default: as modules of that
+        size are wired. Under another setting the lines appear where the pads take them.
+    first_com : int, optional
+        First COM signal that the glass uses. Default: as modules of that size are wired, else 0.
+    external_vcc : bool
+        The module has its own panel supply and lights up without the chip's. Default: False.
+    history : int or None
+        How many frames `frames` keeps, the oldest dropped first; None keeps all. Default: 1000.
+    seed : int or None
+        Seed of the noise that the RAM holds after power-up; None makes it differ from run to run. Default: 0.
+
+    Raises
+    ------
+    ValueError
+        For a size, offset or COM setting that the chip cannot have.
+    """
+
+    columns: ClassVar[int]
+    """Column addresses."""
+    lines: ClassVar[int]
+    """Line addresses: pages or rows."""
+    line_name: ClassVar[str] = "page"
+    """The register that points at one."""
+    packing: ClassVar[Packing] = PAGES
+    column_bytes: ClassVar[int] = 1
+    """Bytes that share a column address."""
+    commands: ClassVar[Commands]
+    """The chip's commands and those of relatives, by opcode; all others are unknown to it."""
+    modules: ClassVar[Mapping[tuple[int, int], Module]]
+    """How modules are wired, by width and height."""
+    com_pin_settings: ClassVar[tuple[int, ...]] = ()
+    """The settings of the COM pins, if the chip has any, and which bits of them alternate pads and swap halves."""
+    alternate_bit: ClassVar[int] = 0x10
+    swap_bit: ClassVar[int] = 0x20
+    upright: ClassVar[tuple[bool, bool]] = (True, True)
+    """The segment remap and the direction of the COM lines under which modules stand upright."""
+    remaps_ram: ClassVar[bool] = True
+    """Whether the segment remap mirrors what comes into the RAM, or else what comes out of it."""
+    transposed: ClassVar[bool] = False
+    """Whether COM lines are the columns of the RAM, and segments its rows."""
+    last_column_wraps: ClassVar[bool] = True
+    """Whether the page pointer returns to column 0, or else loses data past the last column."""
+    supply: ClassVar[tuple[str, int]] = ("on", 1)
+    """Register and bit that switch the panel's supply on. Default: it is on whenever the display is."""
+    supply_command: ClassVar[str] = ""
+    """What to send for it."""
+    identity: ClassVar[int] = 0
+    """The lower bits of the status byte."""
+    arguments_are_data: ClassVar[bool] = False
+    """Whether arguments come with D/C high, and data only after a command that says so (`registers.writing`)."""
+
+    _table: ClassVar[tuple[Command, ...]]
+
+    def __init_subclass__(cls) -> None:
+        super().__init_subclass__()
+        if hasattr(cls, "commands"):
+            cls._table = tuple(cls.commands.get(opcode, UNKNOWN) for opcode in range(256))
+            cls.reset_values = {name: value for command in cls._table for name, value in command.registers.items()}
+            cls.max_level = 2**cls.packing.depth - 1
+
+    def __init__(
+        self,
+        width: int | None = None,
+        height: int | None = None,
+        *,
+        column_offset: int | None = None,
+        com_pins: int | None = None,
+        first_com: int | None = None,
+        external_vcc: bool = False,
+        history: int | None = 1000,
+        seed: int | None = 0,
+    ) -> None:
+        usual = next(iter(self.modules))
+        width, height = usual[0] if width is None else width, usual[1] if height is None else height
+        self._ram: Bytes = np.zeros((self.lines, self.columns, self.packing.elements * self.column_bytes), np.uint8)
+        self.commons, self.segments = levels(self._ram, self.packing).shape[:: -1 if self.transposed else 1]
+        self._glass = self._wired(width, height, self._module(width, height, column_offset, com_pins, first_com))
+        self.external_vcc = external_vcc
+        super().__init__(width, height, history=history, seed=seed)
+
+    def reset(self) -> None:
+        """Pull the reset pin: registers at reset, a half-sent command forgotten, RAM as it was."""
+        super().reset()
+        self._pending = bytearray()
+        self._half_cell = b""
+
+    # the wire
+
+    def write(self, payload: bytes | bytearray | memoryview) -> None:
+        """Take one I2C write: the bytes after the address byte, control bytes included.
+
+        A command whose arguments do not fit in this write waits for them in the next, as the chip does.
+        """
+        for data, run in self._runs(bytes(payload)):
+            self.transfer(run, data)
+
+    def transfer(self, run: bytes | bytearray | memoryview, data: bool) -> None:
+        """Take bytes over SPI, with the D/C line low (`data` False: commands) or high."""
+        self._picture = None
+        if not data:
+            for byte in run:
+                self._obey(byte)
+        elif self.arguments_are_data:
+            self._argue(bytes(run))
+        elif run:
+            if self._pending:
+                self.complain("data while a command waits for its arguments", self._pending)
+            self._store(np.frombuffer(run, np.uint8))
+
+    # what can be seen
+
+    @property
+    def ram(self) -> Picture:
+        """A copy of the RAM, uint8: bytes by page and segment where pixels are packed in pages, else levels."""
+        return self._ram.reshape(self.lines, -1).copy()
+
+    @property
+    def status(self) -> int:
+        """The status byte."""
+        return super().status | self.identity
+
+    @property
+    def lit(self) -> bool:
+        """Whether the panel is on and fed."""
+        register, bit = self.supply
+        return bool(self.registers.on and (self.external_vcc or getattr(self.registers, register) & bit))
+
+    @property
+    def mode(self) -> int:
+        """The addressing mode: `ACROSS`, `DOWN` or `PAGE`."""
+        return getattr(self.registers, "mode", PAGE)
+
+    @property
+    def segment_remap(self) -> bool:
+        """Whether column 0 is at the last segment."""
+        return bool(self.registers.segment_remap)
+
+    @property
+    def high_first(self) -> bool:
+        """Whether the first pixel of a cell is at its lower column, as seen from column 0."""
+        return True
+
+    @property
+    def inverted(self) -> bool:
+        """Whether levels are turned over."""
+        return bool(self.registers.inverted)
+
+    @property
+    def all_on(self) -> bool:
+        """Whether every pixel is at the highest level."""
+        return bool(self.registers.all_on)
+
+    @property
+    def scan(self) -> tuple[int, int, int, bool, int]:
+        """Multiplex ratio less 1, display offset, start line, whether COM lines are reversed, COM pins."""
+        r = self.registers
+        return r.multiplex, r.offset, r.start_line, r.com_reversed, getattr(r, "com_pins", 0)
+
+    def com_signals(self, setting: int) -> NDArray[np.intp]:
+        """Which COM signal each pad carries under a setting of the COM pins."""
+        alternate, swapped = bool(setting & self.alternate_bit), bool(setting & self.swap_bit)
+        return com_signals(self.commons, alternate=alternate, swapped=swapped)
+
+    # inside
+
+    def _lose_ram(self) -> None:
+        noise = np.frombuffer(self._random.randbytes(self._ram.size), np.uint8).reshape(self._ram.shape)
+        self._ram[:] = noise if self.packing.rows == 8 else noise & self.max_level
+
+    def _runs(self, payload: bytes) -> Iterator[tuple[bool, bytes]]:
+        """Split an I2C write at its control bytes into (is data, bytes)."""
+        at = 0
+        while at < len(payload):
+            control = payload[at]
+            if control & 0x3F:
+                self.complain("the lower six bits of a control byte are 0", (control,))
+            end = at + 2 if control & 0x80 else len(payload)
+            if end > len(payload):
+                self.complain("a byte must follow this control byte, and the transaction ended", (control,))
+            yield bool(control & 0x40), payload[at + 1 : end]
+            at = end
+
+    def _command(self, opcode: int) -> Command:
+        """The command of an opcode; chips that have several sets of commands choose here."""
+        return self._table[opcode]
+
+    def _obey(self, byte: int) -> None:
+        """Take one byte of a command."""
+        if self.arguments_are_data:
+            if self._pending:
+                self.complain("a command is cut off before its arguments", self._pending)
+                self._pending.clear()
+            self.registers.writing = False
+        self._pending.append(byte)
+        self._execute()
+
+    def _argue(self, run: bytes) -> None:
+        """Take bytes with D/C high where they are arguments first, and data only behind the command for it."""
+        for at, byte in enumerate(run):
+            if not self._pending:
+                if self.registers.writing:
+                    self._store(np.frombuffer(run, np.uint8)[at:])
+                else:
+                    self.complain("data that no command waits for is lost")
+                return
+            self._pending.append(byte)
+            self._execute()
+
+    def _execute(self) -> None:
+        """Carry a command out once its arguments are there."""
+        command = self._command(self._pending[0])
+        if len(self._pending) <= command.arguments:
+            return
+        sent = bytes(self._pending)
+        self._pending.clear()
+        if sent[0] != 0xFD and getattr(self.registers, "locked", False):
+            self.complain("commands are locked; send FD 12 first", sent)
+        else:
+            self._half_cell = b""
+            command.act(self, sent)
+
+    def _store(self, data: Bytes) -> None:
+        """Take data into the RAM."""
+        if self.registers.on and not self.lit:
+            self.complain(f"a picture for a panel that is on without a supply ({self.supply_command}) stays dark")
+        if getattr(self.registers, "scrolling", False):
+            self.complain("data while a scroll is running; send 2E first")
+        if self.column_bytes > 1:
+            data = np.frombuffer(self._half_cell + data.tobytes(), np.uint8)
+            whole = data.size - data.size % self.column_bytes
+            self._half_cell, data = data[whole:].tobytes(), data[:whole]
+        self._place(self.packing.spread(data).reshape(-1, self._ram.shape[2]))
+
+    def _place(self, cells: Bytes) -> None:
+        """Put cells where the pointer stands, and move it on."""
+        registers, mode, line = vars(self.registers), self.mode, self.line_name
+        ram = self._ram
+        if self.remaps_ram and self.segment_remap:
+            ram = ram[:, ::-1, ::-1]
+        if not self.high_first:
+            ram = ram[:, :, ::-1]
+        at, last = registers["column"], self.columns - 1
+        if mode == PAGE:
+            column, page = Counter(at, 0, last, self.columns), registers[line]
+            lines = Counter(page, page, page, self.lines)
+            if not self.last_column_wraps and at + len(cells) >= self.columns:
+                if at + len(cells) > self.columns:
+                    self.complain(f"data past column {last} is lost")
+                fill(ram, cells[: max(self.columns - at, 0)], column, lines)
+                registers["column"] = self.columns
+                return
+        else:
+            column = Counter(at, registers.get("column_start", 0), registers.get("column_end", last), self.columns)
+            first, end = registers.get(f"{line}_start", 0), registers.get(f"{line}_end", self.lines - 1)
+            lines = Counter(registers[line], first, end, self.lines)
+        if mode == DOWN:
+            fill(ram.swapaxes(0, 1), cells, lines, column)
+        else:
+            fill(ram, cells, column, lines)
+        registers["column"], registers[line] = column.at, lines.at
+
+    def _look(self) -> Picture:
+        if not self.lit:
+            return np.zeros((self.height, self.width), np.uint8)
+        seen = levels(self._ram, self.packing)
+        if self.transposed:
+            seen = seen.T
+        if not self.remaps_ram and self.segment_remap != self.upright[0]:
+            seen = seen[:, ::-1]
+        seen, dark = self._glass.pixels(seen, self)
+        if self.all_on:
+            seen = np.full_like(seen, self.max_level)
+        elif self.inverted:
+            seen = self.max_level - seen
+        if dark is not None:
+            seen[dark] = 0
+        return np.ascontiguousarray(seen.T) if self.transposed else seen
+
+    # the module
+
+    def _module(
+        self, width: int, height: int, column_offset: int | None, com_pins: int | None, first_com: int | None
+    ) -> Module:
+        """How a module is wired, after the table and what overrides it."""
+        known = self.modules.get((width, height))
+        if known is None:
+            wirings = {module.com_pins for module in self.modules.values()}
+            needed = {"column_offset": column_offset, **({"com_pins": com_pins} if len(wirings) > 1 else {})}
+            missing = [name for name, value in needed.items() if value is None]
+            if missing:
+                sizes = ", ".join(f"{w}x{h}" for w, h in self.modules)
+                raise ValueError(
+                    f"width and height: {width}x{height} is no module known here ({sizes}); "
+                    f"give {' and '.join(missing)} too"
+                )
+            known = Module(com_pins=wirings.pop())
+        given: dict[str, Any] = {"column_offset": column_offset, "com_pins": com_pins, "first_com": first_com}
+        return known._replace(**{name: value for name, value in given.items() if value is not None})
+
+    def _wired(self, width: int, height: int, module: Module) -> Glass:
+        """Join a glass to the chip, if it can be."""
+        lines, dots = (width, height) if self.transposed else (height, width)
+        wide, high = (self.commons, self.segments) if self.transposed else (self.segments, self.commons)
+        if not 1 <= width <= wide or not 1 <= height <= high:
+            raise ValueError(f"width and height: {width}x{height} is not within 1x1 and {wide}x{high}")
+        most = self.commons - 1 if self.transposed else self.segments - width
+        if not 0 <= module.column_offset <= most:
+            raise ValueError(f"column_offset: {module.column_offset} is not 0 to {most}, for {width} columns of {wide}")
+        if module.com_pins not in (self.com_pin_settings or (0,)):
+            settings = ", ".join(f"{pins:#04x}" for pins in self.com_pin_settings) or "0: the chip has no such setting"
+            raise ValueError(f"com_pins: {module.com_pins:#04x} is none of {settings}")
+        if not 0 <= module.first_com < self.commons:
+            raise ValueError(f"first_com: {module.first_com} is not 0 to {self.commons - 1}")
+        first_line, first_dot = module.first_com, module.column_offset
+        if self.transposed:
+            first_line, first_dot = (first_line + first_dot) % self.commons, 0
+        pads = np.roll(np.argsort(self.com_signals(module.com_pins)), -first_line)[:lines]
+        return Glass(
+            lines,
+            dots,
+            segments=self.segments,
+            first_segment=first_dot,
+            pads=pads,
+            remapped=self.upright[0],
+            com_reversed=self.upright[1],
+        )

@@ -1,0 +1,111 @@
+"""Sino Wealth's chips of one bit a pixel: the SH1106 and the SH1107."""
+
+from __future__ import annotations
+
+from typing import Any, ClassVar
+
+from .addressing import DOWN, PAGE, page_pointer
+from .commands import Command, Commands, choice, numbered, relative, setting
+from .display_chip import DisplayChip
+from .glass import Module
+from .ssd130x import ONE_BIT, RELATIVES
+
+
+def _converter(chip: Any, sent: bytes) -> None:
+    if sent[1] not in (0x8A, 0x8B):
+        chip.remark("the DC-DC converter takes 8A (off) or 8B (on); all else is ignored here", sent)
+        return
+    if chip.registers.on and sent[1] != chip.registers.converter:
+        chip.remark("the DC-DC converter is switched while the display is off", sent)
+    chip.registers.converter = sent[1]
+
+
+def _modify(chip: Any, sent: bytes) -> None:
+    chip.registers.kept_column = chip.registers.column
+
+
+def _end_modify(chip: Any, sent: bytes) -> None:
+    if chip.registers.kept_column is None:
+        chip.remark("the end of a read-modify-write that was not begun (E0)", sent)
+    else:
+        chip.registers.column, chip.registers.kept_column = chip.registers.kept_column, None
+
+
+#: What the SH110x add to the commands that all chips of one bit have.
+SINO_WEALTH: Commands = {
+    **RELATIVES,
+    **ONE_BIT,
+    **choice("com_reversed", False, {opcode: opcode >= 0xC8 for opcode in range(0xC0, 0xD0)}),
+    0x81: setting("contrast", 0x80),
+    0xAD: Command(1, _converter, {"converter": 0x8B}),
+    0xDB: setting("vcomh", 0x35),
+    0xE0: Command(0, _modify, {"kept_column": None}),
+    0xEE: Command(0, _end_modify, {"kept_column": None}),
+}
+
+
+class SH1106(DisplayChip):
+    """An SH1106 with its glass: 132 x 64 bits of RAM behind a window of 128 x 64 pixels.
+
+    Parameters, attributes and errors are those of `simulator.SSD1306`; `column_offset` is 2, of some modules 0 or 4,
+    and `external_vcc` is a supply beside the DC-DC converter. Data past column 131 is lost, as no datasheet says where
+    it goes. The status byte's lower bits are 8, as seen of modules.
+
+    Examples
+    --------
+    >>> chip = SH1106()
+    >>> chip.write(bytes.fromhex("00 20 02 A5 AF"))
+    >>> chip.remarks
+    ['20 02: not a command of the SH1106 (addressing mode of the SSD1306); ignored']
+    """
+
+    columns, lines = 132, 8
+    modules: ClassVar = {(128, 64): Module(2, 0x12)}
+    com_pin_settings = (0x02, 0x12)
+    last_column_wraps = False
+    supply, supply_command = ("converter", 0x01), "AD 8B"
+    identity = 0x08
+    commands: ClassVar = {
+        **SINO_WEALTH,
+        **page_pointer(),
+        **numbered("start_line", 0x40, 64),
+        **numbered("pump_voltage", 0x30, 4, reset=2),
+        0x20: relative("addressing mode of the SSD1306", 1),
+        **dict.fromkeys((0x21, 0x22), relative("windows of the SSD1306", 2, misleads=True)),
+        0xA8: setting("multiplex", 63, range(64), "the multiplex ratio is 00 to 3F (1 to 64 lines)", mask=0x3F),
+        0xD5: setting("clock", 0x50),
+        0xDA: setting("com_pins", 0x12, (0x02, 0x12), "the COM pins are 02 or 12", mask=0x12),
+    }
+
+
+class SH1107(DisplayChip):
+    """An SH1107 with its glass: 128 x 128 bits of RAM, its columns joined to COM lines and its rows to segments.
+
+    Parameters, attributes and errors are those of `simulator.SSD1306`. `column_offset` is the first visible RAM column
+    under D3 00: 32 of 64x128 (which drivers turn to 0 by D3 60), 24 of 80x128 (or 0 by D3 68), 0 of 128x128, of some
+    96. The page pointer wraps within its page, on which drivers of the modules at 96 rely; in vertical mode (21) it
+    counts through the pages and then to the next column.
+
+    Examples
+    --------
+    >>> chip = SH1107(64, 128)
+    >>> chip.write(bytes.fromhex("00 A8 3F D3 60 A5 AF"))
+    >>> chip.pixels.shape, int(chip.pixels.min())
+    ((128, 64), 1)
+    """
+
+    columns, lines = 128, 16
+    modules: ClassVar = {(64, 128): Module(32), (80, 128): Module(24), (128, 128): Module(0)}
+    transposed, remaps_ram, upright = True, False, (False, False)
+    identity = 0x07
+    commands: ClassVar = {
+        **SINO_WEALTH,
+        **page_pointer(16),
+        **choice("mode", PAGE, {0x20: PAGE, 0x21: DOWN}),
+        0x22: relative("windows of the SSD1306", 2, misleads=True),
+        0xA8: setting("multiplex", 127, range(128), "the multiplex ratio is 00 to 7F (1 to 128 lines)", mask=0x7F),
+        0xAD: setting("converter", 0x80, range(0x80, 0x90), "the DC-DC converter takes 80 to 8F", harmless=True),
+        0xD3: setting("offset", 0x00, range(128), "the display offset is 00 to 7F", mask=0x7F),
+        0xD5: setting("clock", 0x50),
+        0xDC: setting("start_line", 0x00, range(128), "the start line is 00 to 7F", mask=0x7F),
+    }

@@ -1,0 +1,204 @@
+"""Solomon Systech's chips of four bits a pixel: the SSD1327 and the SSD1322."""
+
+from __future__ import annotations
+
+import itertools
+from typing import Any, ClassVar
+
+from .addressing import ACROSS, DOWN, NIBBLES, windows
+from .commands import DISPLAY, LOCK, Command, Commands, choice, nothing, relative, setting
+from .display_chip import DisplayChip
+from .glass import Module
+
+LINEAR = tuple(range(0, 30, 2))
+"""Pulse widths of levels 1 to 15 after reset."""
+
+
+def _greys(chip: Any, sent: bytes) -> None:
+    if max(sent[1:]) > chip.longest_pulse or any(low >= high for low, high in itertools.pairwise(sent[1:])):
+        chip.complain(f"a grey table rises from step to step, to {chip.longest_pulse:02X} at most", sent)
+    chip.registers.greys = tuple(sent[1:])
+
+
+def _linear(chip: Any, sent: bytes) -> None:
+    chip.registers.greys = LINEAR
+
+
+#: What the SSD132x have in common.
+GREY: Commands = {
+    **DISPLAY,
+    **choice("display", 0xA4, {opcode: opcode for opcode in range(0xA4, 0xA8)}),
+    0xAB: setting("regulator", 0x01, (0x00, 0x01), "the regulator takes 00 (external) or 01 (internal)", harmless=True),
+    0xB1: setting(
+        "phases", 0x74, [n for n in range(256) if n & 0x0F and n & 0xF0], "a phase of 0 is invalid", harmless=True
+    ),
+    0xB3: setting("clock", 0x00),
+    0xB5: setting("gpio", 0x02),
+    0xB6: setting("second_precharge", 0x04, range(1, 16), "the second precharge period is 01 to 0F"),
+    0xB8: Command(15, _greys, {"greys": LINEAR}),
+    0xB9: Command(0, _linear, {"greys": LINEAR}),
+    0xBE: setting("vcomh", 0x05, range(8), "the VCOMH level is 00 to 07", harmless=True),
+    0xFD: LOCK,
+}
+
+
+class GreyChip(DisplayChip):
+    """What the SSD132x have in common: a remap register, and display modes of which one turns all pixels off."""
+
+    line_name = "row"
+    packing = NIBBLES
+    longest_pulse = 0x3F
+    down_bit = 0x04
+    all_off, all_lit, inverse = 0xA6, 0xA5, 0xA7
+    com_remap_bit = 0x10
+
+    @property
+    def lit(self) -> bool:
+        """Whether the panel is on, and not all off by command."""
+        return super().lit and self.registers.display != self.all_off
+
+    @property
+    def all_on(self) -> bool:
+        """Whether every pixel is at the highest level."""
+        return bool(self.registers.display == self.all_lit)
+
+    @property
+    def inverted(self) -> bool:
+        """Whether levels are turned over."""
+        return bool(self.registers.display == self.inverse)
+
+    @property
+    def mode(self) -> int:
+        """Whether windows are filled across or down."""
+        return DOWN if self.registers.remap & self.down_bit else ACROSS
+
+    @property
+    def scan(self) -> tuple[int, int, int, bool, int]:
+        """Multiplex ratio less 1, display offset, start line, whether COM lines are reversed, COM pins."""
+        r = self.registers
+        return r.multiplex, r.offset, r.start_line, bool(r.remap & self.com_remap_bit), r.remap & self.alternate_bit
+
+
+def _scroll(chip: Any, sent: bytes) -> None:
+    if chip.registers.scrolling:
+        chip.complain("a scroll is set up only while none is running; send 2E first", sent)
+    chip.registers.scroll = sent
+
+
+def _scroll_run(chip: Any, sent: bytes) -> None:
+    chip.registers.scrolling = sent[0] == 0x2F
+    if chip.registers.scrolling and not chip.registers.scroll:
+        chip.complain("a scroll is started and none was set up (26 or 27)", sent)
+
+
+class SSD1327(GreyChip):
+    """An SSD1327 with its glass: 128 x 128 pixels of four bits behind a window of 128 x 128 or 96 x 96 pixels.
+
+    Parameters, attributes and errors are those of `simulator.SSD1306`. The common module stands upright under A0 51.
+    What an eye sees is given in levels, whatever the grey table makes of them. Hardware scrolling is state only.
+
+    Examples
+    --------
+    >>> chip = SSD1327()
+    >>> chip.write(bytes.fromhex("00 A0 51 15 02 02 75 05 05 AF"))
+    >>> chip.write(bytes.fromhex("40 C3"))
+    >>> chip.pixels[5, 4:6].tolist()
+    [12, 3]
+    """
+
+    columns, lines = 64, 128
+    modules: ClassVar = {(128, 128): Module(0, 0x40), (96, 96): Module(16, 0x40, 32)}
+    com_pin_settings = (0x00, 0x40)
+    alternate_bit, swap_bit = 0x40, 0x00
+    commands: ClassVar = {
+        **GREY,
+        **windows(64, 128, 0x15, 0x75),
+        **dict.fromkeys((0x26, 0x27), Command(7, _scroll, {"scroll": b"", "scrolling": False})),
+        **dict.fromkeys((0x2E, 0x2F), Command(0, _scroll_run)),
+        **dict.fromkeys((0x84, 0x85, 0x86, 0xB2, 0xB4, 0xBB), nothing()),
+        0x81: setting("contrast", 0x7F),
+        0xA0: setting(
+            "remap", 0x00, [n for n in range(256) if not n & 0xA8], "bits 3, 5 and 7 of the remap are 0", mask=0x57
+        ),
+        0xA1: setting("start_line", 0x00, range(128), "the start line is 00 to 7F", mask=0x7F),
+        0xA2: setting("offset", 0x00, range(128), "the display offset is 00 to 7F", mask=0x7F),
+        0xA8: setting("multiplex", 127, range(15, 128), "the multiplex ratio is 0F to 7F (16 to 128 lines)", mask=0x7F),
+        0xBC: setting("precharge_voltage", 0x05, range(32), "the precharge voltage is 00 to 1F", harmless=True),
+        0xD5: setting("function_b", 0x60, range(0x60, 0x64), "function selection B is 60 to 63", harmless=True),
+    }
+
+    @property
+    def segment_remap(self) -> bool:
+        """Whether column 0 is at the last segment."""
+        return bool(self.registers.remap & 0x01)
+
+    @property
+    def high_first(self) -> bool:
+        """Whether the upper half of a byte is the pixel nearer to column 0."""
+        return self.segment_remap != bool(self.registers.remap & 0x02)
+
+
+def _remap(chip: Any, sent: bytes) -> None:
+    if sent[1] & 0xC8 or sent[2] & ~0x10 != 0x01:
+        chip.complain("the remap is 00 to 37 without bit 3, and then 01 or 11", sent)
+    chip.registers.remap, chip.registers.dual_com = sent[1], bool(sent[2] & 0x10)
+
+
+def _write_ram(chip: Any, sent: bytes) -> None:
+    chip.registers.writing = True
+
+
+class SSD1322(GreyChip):
+    """An SSD1322 with its glass: 480 x 128 pixels of four bits behind a window of 256 x 64 pixels, on SPI alone.
+
+    Parameters, attributes and errors are those of `simulator.SSD1306`; `column_offset` is 112, of some modules 96.
+    Arguments come with D/C high; data only after 5C. A column address is four pixels. The module stands upright under
+    A0 14 11, as vendors send it; A0 06 11 turns it by 180 degrees.
+
+    Examples
+    --------
+    >>> chip = SSD1322()
+    >>> for sent in ("A0 14 11", "CA 3F", "15 1C 5B", "75 00 3F", "AF", "5C C3 21"):
+    ...     chip.transfer(bytes.fromhex(sent)[:1], data=False)
+    ...     chip.transfer(bytes.fromhex(sent)[1:], data=True)
+    >>> chip.pixels[0, :4].tolist()
+    [12, 3, 2, 1]
+    """
+
+    busses = ("spi",)
+    arguments_are_data = True
+    columns, lines, column_bytes = 120, 128, 2
+    modules: ClassVar = {(256, 64): Module(112)}
+    upright = (False, True)
+    alternate_bit, swap_bit, down_bit = 0x20, 0x00, 0x01
+    longest_pulse = 0xB4
+    all_off, all_lit, inverse = 0xA4, 0xA5, 0xA7
+    commands: ClassVar = {
+        **GREY,
+        **choice("display", 0xA6, {opcode: opcode for opcode in range(0xA4, 0xA8)}),
+        **windows(120, 128, 0x15, 0x75),
+        0x00: nothing(),
+        0x5C: Command(0, _write_ram, {"writing": False}),
+        0x5D: nothing(),
+        0xA0: Command(2, _remap, {"remap": 0x00, "dual_com": False}),
+        0xA1: setting("start_line", 0x00, range(128), "the start line is 00 to 7F", mask=0x7F),
+        0xA2: setting("offset", 0x00, range(128), "the display offset is 00 to 7F", mask=0x7F),
+        0xA8: relative("multiplex ratio of the SSD1327; partial display here", 2),
+        0xA9: nothing(),
+        0xB4: nothing(2),
+        0xBB: setting("precharge_voltage", 0x17, range(32), "the precharge voltage is 00 to 1F", harmless=True),
+        0xC1: setting("contrast", 0x7F),
+        0xC7: setting("master_contrast", 0x0F, range(16), "the master contrast is 00 to 0F", mask=0x0F),
+        0xCA: setting("multiplex", 127, range(15, 128), "the multiplex ratio is 0F to 7F (16 to 128 lines)", mask=0x7F),
+        0xD1: nothing(2),
+    }
+
+    @property
+    def segment_remap(self) -> bool:
+        """Whether column 0 is at the last segments."""
+        return bool(self.registers.remap & 0x02)
+
+    @property
+    def high_first(self) -> bool:
+        """Whether the first pixel of a column address is the one nearer to column 0."""
+        return bool(self.registers.remap & 0x04)
