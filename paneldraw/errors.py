@@ -18,6 +18,10 @@ class TransportError(PanelError, OSError):
 
     transient: bool = False
 
+    def final(self) -> TransportError:
+        """Return the error for a script to hear, now that nothing more is tried. Transports may say more in it."""
+        return self
+
 
 class PanelNotFoundError(TransportError):
     """There is no such bus or port, or nobody answers at the address."""

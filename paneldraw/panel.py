@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import contextlib
+import errno
 import operator
 import os
 import sys
 import threading
 import time
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, field
 from typing import Any, Final, Literal, NamedTuple, TypeVar
 
 import numpy as np
@@ -18,8 +19,11 @@ import numpy.typing as npt
 from paneldraw import urls
 from paneldraw.controllers import BUSES, Controller
 from paneldraw.controllers.packing import PACK
-from paneldraw.errors import PanelError, TransportError
+from paneldraw.errors import PanelError, PanelTimeoutError, TransportError
 from paneldraw.framebuffer import Framebuffer, pictures
+from paneldraw.leaving import arrange, follow
+from paneldraw.pacing import Frames
+from paneldraw.sender import Sender
 from paneldraw.transports import I2CTransport, SerialTransport, Transport
 from paneldraw.update import Planner
 
@@ -32,8 +36,11 @@ _ON_CLOSE: Final = ("keep", "clear", "off")
 _ROTATIONS: Final = (0, 90, 180, 270)
 _WIRING: Final = ("column_offset", "first_com", "com_pins")
 """What a simulated module is wired with, beside a driver that believes it."""
-_RETRIES: Final = 2
-_PAUSE: Final = 0.002
+_RETRIES: Final = 6
+_PATIENCE: Final = 0.02
+"""So many times, and about so many seconds, a fault is answered by trying again."""
+_LOOK: Final = 1.0
+"""Seconds between two looks at whether the panel lost its power."""
 
 
 class Report(NamedTuple):
@@ -46,10 +53,14 @@ class Report(NamedTuple):
     """Bytes of panel RAM that differ from the picture before."""
     seconds: float
 
+    queued: bool = False
+    """Whether the picture was handed on, to be shown in a moment: by the sender, or by the call that this one
+    interrupted."""
+
     @property
     def unchanged(self) -> bool:
         """Whether the panel already showed this picture, so that nothing was sent."""
-        return self.messages == 0
+        return self.messages == 0 and not self.queued
 
 
 class Sent(NamedTuple):
@@ -70,7 +81,13 @@ class Stats:
     changed_bytes: int = 0
     seconds: float = 0.0
     retries: int = 0
-    """Transient faults after which the whole picture was sent again."""
+    """Faults after which the whole picture was sent again."""
+    restarts: int = 0
+    """How often the chip was started anew: after faults, lost power, `Panel.invalidate` and ``show(force=True)``."""
+    dropped: int = 0
+    """Pictures of ``show(wait=False)`` that a later one overtook."""
+    faults: dict[str, int] = field(default_factory=dict)
+    """How many faults of each kind, by the system's name for them."""
 
     def add(self, report: Report) -> None:
         """Count one more show."""
@@ -101,6 +118,9 @@ class Panel:
     on_close : str, optional
         What `close` leaves behind: ``"keep"`` the picture (default), ``"clear"`` a black one, or a panel that is
         ``"off"``.
+    refresh : float, optional
+        Start the chip anew with the first show after so many seconds, for a bus on which lost power cannot be noticed.
+        On I2C most chips say whether they are still on, and are asked once a second. Default: None, never.
     updates : str, optional
         How pictures are sent: in the fewest bytes that the datasheet allows, ``"least"`` (default); ``"plain"``, every
         run addressed in full, with nothing assumed of the chip's pointers, for clones that do not keep to the
@@ -109,7 +129,7 @@ class Panel:
     Raises
     ------
     ValueError
-        An unknown `rotate`, `contrast`, `on_close` or `updates`, or a chip that cannot be on this bus.
+        An unknown `rotate`, `contrast`, `on_close`, `updates` or `refresh`, or a chip that cannot be on this bus.
     TransportError
         The panel cannot be reached; the message says what to do.
 
@@ -133,19 +153,40 @@ class Panel:
         contrast: int | None = None,
         on_close: OnClose = "keep",
         updates: Updates = "least",
+        refresh: float | None = None,
     ) -> None:
-        if on_close not in _ON_CLOSE:
-            raise ValueError(f"on_close must be one of {', '.join(map(repr, _ON_CLOSE))}, not {on_close!r}")
+        try:
+            self._set_up(controller, transport, contrast, updates, refresh)
+            self.rotate = rotate
+            _check_on_close(on_close)
+            with self._lock:
+                self._do(self._restore)
+        except BaseException:
+            self._closed = True
+            transport.close()
+            raise
+        follow(self)
+        self.on_close = on_close
+
+    def _set_up(
+        self, controller: Controller, transport: Transport, contrast: int | None, updates: str, refresh: float | None
+    ) -> None:
+        """Check what was asked for, and begin with nothing known of the chip."""
         wire = getattr(transport, "wire", "")
         if wire in BUSES and wire not in controller.buses:
             buses = " or ".join(BUSES[bus] for bus in controller.buses)
             raise ValueError(f"controller must be one that {BUSES[wire]} reaches: the {controller.name} is on {buses}")
+        if refresh is not None and not refresh > 0:
+            raise ValueError(f"refresh must be seconds above 0, or None, not {refresh!r}")
         self.controller = controller
         self.transport = transport
         self.stats = Stats()
-        self.on_close: OnClose = on_close
         self._lock = threading.RLock()
+        self._later: list[Callable[[], object]] = []
         self._closed = False
+        self._foreign = 0  # the process that the panel belongs to, in a forked child
+        self._sender: Sender | None = None
+        self._refresh = refresh
         self._planner = Planner(controller, transport.cost, updates)
         self._pack = PACK[controller.packing]
         self._contrast = None if contrast is None else _checked_contrast(controller, contrast)
@@ -153,13 +194,12 @@ class Panel:
         self._kept: list[bytes] = []
         self._inverted = False
         self._asleep = False
-        self._ready = False  # the chip took its init, and nothing failed since
+        self._ready = False  # the chip took its init, and nothing went wrong since
         self._lit = False
         self._shown = False
+        self._watched = False  # whether the chip answers its status right
+        self._looked = self._started = 0.0
         self._own: Framebuffer | None = None
-        self.rotate = rotate
-        with self._lock:
-            self._retrying(self._start)
 
     @property
     def rotate(self) -> int:
@@ -174,6 +214,18 @@ class Panel:
             self._rotate = degrees
             size = self.controller.width, self.controller.height
             self._size = size if degrees % 180 == 0 else size[::-1]
+
+    @property
+    def on_close(self) -> OnClose:
+        """What `close` leaves behind, as does the end of the script: ``"keep"``, ``"clear"`` or ``"off"``."""
+        return self._on_close
+
+    @on_close.setter
+    def on_close(self, value: OnClose) -> None:
+        _check_on_close(value)
+        self._on_close: OnClose = value
+        if value != "keep":
+            arrange(self)
 
     @property
     def width(self) -> int:
@@ -212,11 +264,10 @@ class Panel:
             with self._lock:
                 picture.pixels[:] = self._own_picture().pixels
         yield picture
-        with self._lock:
-            self._own = picture
-            self.show(picture)
+        self._own = picture
+        self.show(picture)
 
-    def show(self, source: Any = None, *, force: bool = False) -> Report:
+    def show(self, source: Any = None, *, force: bool = False, wait: bool = True) -> Report:
         """Bring a picture onto the panel by sending what differs from the last one.
 
         Parameters
@@ -226,7 +277,10 @@ class Panel:
             the panel's highest. What is deeper than the panel is reduced to its nearest levels. Default: the picture
             of the last `frame`.
         force : bool, optional
-            Send everything, changed or not. Default: False.
+            Start the chip anew and send everything, changed or not. Default: False.
+        wait : bool, optional
+            False hands a copy of the picture to a thread that shows it, and returns at once. Of pictures that wait
+            there the latest wins; what goes wrong is raised by the next call, or by `flush`. Default: True.
 
         Returns
         -------
@@ -238,24 +292,85 @@ class Panel:
             `source` is no picture, or not of this size or depth.
         TransportError
             The panel could not be reached. The next show sends everything.
+        PanelError
+            The panel is closed, or belongs to the process that this one was forked from.
+
+        Notes
+        -----
+        A show from a signal handler, in the middle of a show of the same thread, is done when that one is, and then
+        that one's picture is shown again: the report says `queued`.
         """
-        with self._lock:
-            started = time.perf_counter()
-            self._check_open()
-            pixels, max_level = self._levels(source)
-            self._pack(self._upright(pixels), max_level, self._planner.fresh)
+        self._listen()
+        pixels, max_level = self._levels(source)
+        if wait and self._sender is None:
+            return self._show(pixels, max_level, force)
+        if not wait:
             if force:
-                self._planner.forget()
-            report = Report(*self._retrying(self._send), time.perf_counter() - started)
-            self.stats.add(report)
-            return report
+                self.invalidate()
+            return self._hand_over(pixels.copy(), max_level)
+        self.flush()
+        return self._show(pixels, max_level, force)
+
+    async def ashow(self, source: Any = None, *, force: bool = False) -> Report:
+        """Show a picture without holding up the event loop, as `show` does; `source` is copied at once."""
+        import asyncio
+
+        self._listen()
+        pixels, max_level = self._levels(source)
+        return await asyncio.to_thread(self._show, pixels.copy(), max_level, force)
+
+    def flush(self, timeout: float | None = None) -> None:
+        """Wait until what was handed over by ``show(wait=False)`` is on the panel.
+
+        Parameters
+        ----------
+        timeout : float, optional
+            Seconds to wait at most. Default: as long as it takes.
+
+        Raises
+        ------
+        PanelTimeoutError
+            It took longer.
+        TransportError
+            What went wrong with a picture that was handed over.
+        """
+        if self._sender is not None:
+            self._sender.flush(timeout)
+
+    def frames(self, fps: float = 30) -> Frames:
+        """Make an iterator that keeps to a beat: the loop of an animation.
+
+        Parameters
+        ----------
+        fps : float, optional
+            Frames a second, up to 1000. Default: 30.
+
+        Returns
+        -------
+        Frames
+            Of `Beat`: the number of the frame, the seconds since the start, and how many frames were left out because
+            the one before took too long. That more was asked for than can be is said once, as a RuntimeWarning.
+
+        Examples
+        --------
+        >>> panel = open_panel("sim://ssd1306")
+        >>> for beat in panel.frames(fps=100):
+        ...     with panel.frame() as fb:
+        ...         fb.hline(0, 0, beat.number)
+        ...     if beat.number >= 3:
+        ...         break
+        """
+        return Frames(fps)
+
+    def clear(self) -> Report:
+        """Show a black picture."""
+        return self.show(self.framebuffer())
 
     def contrast(self, level: int) -> None:
         """Set the brightness of lit pixels, 0 to 255."""
         level = _checked_contrast(self.controller, level)
-        with self._lock:
-            self._contrast = level
-            self._change(*self._brightness())
+        self._contrast = level
+        self._change(lambda: self._brightness())
 
     def dim(self, level: int) -> None:
         """Set the brightness by contrast, precharge and COM voltage together: darker than contrast alone can.
@@ -273,10 +388,9 @@ class Panel:
         """
         level = _checked_contrast(self.controller, level)
         steps = self.controller.drive[1:]
-        with self._lock:
-            self._contrast = max(0, 2 * level - 255) if steps else level
-            self._drive = self.controller.drive[max(0, (127 - level) * len(steps) // 128 + 1)] if steps else ()
-            self._change(*self._brightness())
+        self._contrast = max(0, 2 * level - 255) if steps else level
+        self._drive = self.controller.drive[max(0, (127 - level) * len(steps) // 128 + 1)] if steps else ()
+        self._change(lambda: self._brightness())
 
     def command(self, command: bytes, *, keep: bool = False) -> None:
         """Send a command that the chip's record does not know, with its arguments.
@@ -297,51 +411,66 @@ class Panel:
         Examples
         --------
         >>> panel = open_panel("sim://ssd1306")
-        >>> panel.command(b"\xd9\x11", keep=True)  # shorter precharge
+        >>> panel.command(bytes((0xD9, 0x11)), keep=True)  # shorter precharge
         """
         if not isinstance(command, (bytes, bytearray)):
             raise TypeError(f"command must be bytes, not {type(command).__name__}")
         if not command:
             raise ValueError("command must not be empty")
-        with self._lock:
-            if keep:
-                self._kept.append(bytes(command))
-            self._change(bytes(command))
+        sent = bytes(command)
+        if keep:
+            self._kept.append(sent)
+        self._change(lambda: (sent,))
 
     def invert(self, inverted: bool = True) -> None:
         """Show lit pixels dark and dark ones lit, or with False as they are."""
-        with self._lock:
-            self._inverted = bool(inverted)
-            self._change(self.controller.inverse if inverted else self.controller.normal)
+        self._inverted = bool(inverted)
+        self._change(lambda: (self.controller.inverse if self._inverted else self.controller.normal,))
 
     def sleep(self) -> None:
         """Turn the panel dark. It keeps its picture, takes new ones, and needs next to no power."""
-        with self._lock:
-            self._asleep, self._lit = True, False
-            self._change(self.controller.power_off)
+        self._asleep = True
+        self._change(self._power)
 
     def wake(self) -> None:
-        """Light the panel again."""
-        with self._lock:
-            self._asleep = False
-            self._change(self.controller.power_on)
-            self._lit = True
+        """Light the panel again; one that was shown nothing yet lights with its first picture."""
+        self._asleep = False
+        self._change(self._power)
 
     def invalidate(self) -> None:
         """Say that the panel's state is unknown, after a power cut for instance: the next show starts it anew."""
-        with self._lock:
-            self._ready = False
+        self._ready = False
 
     def close(self) -> None:
-        """Leave the panel as `on_close` says and close the transport. Closing twice does nothing."""
+        """Leave the panel as `on_close` says and close the transport. Closing twice does nothing.
+
+        What ``show(wait=False)`` was given is shown first.
+        """
+        if self._closed or self._foreign:
+            self._closed = True
+            return
+        if self._postponed(self.close):
+            return
+        sender = self._sender
+        if sender is not None:
+            with contextlib.suppress(PanelTimeoutError):
+                sender.flush(2.0)
+            sender.stop()
         with self._lock:
             if self._closed:
                 return
-            self._closed = True
             try:
-                self._leave()
+                self._do(self._leave)
             finally:
+                self._closed = True
                 self.transport.close()
+
+    def __del__(self) -> None:
+        if getattr(self, "_on_close", "keep") != "keep" and not self._closed:
+            with contextlib.suppress(Exception):
+                self.close()
+        elif getattr(self, "_sender", None) is not None:
+            self._sender.stop(0.0)  # type: ignore[union-attr]
 
     def __enter__(self) -> Panel:
         return self
@@ -357,9 +486,23 @@ class Panel:
         state = "closed" if self._closed else f"rotate={self._rotate}"
         return f"<Panel {self.controller.name} {self.width}x{self.height}, {state}>"
 
-    def _check_open(self) -> None:
+    def _check(self) -> None:
         if self._closed:
             raise PanelError("this panel is closed: open a new one")
+        if self._foreign:
+            raise PanelError(f"this panel is that of process {self._foreign}, which was forked: open a new one here")
+
+    def _listen(self) -> None:
+        """Check that the panel can be used; raise what went wrong with a picture that was handed over."""
+        self._check()
+        if self._sender is not None:
+            self._sender.raise_error()
+
+    def _disown(self) -> None:
+        """Know, in a forked child, that the panel is the parent's."""
+        self._foreign = self._foreign or os.getppid()
+        self._lock = threading.RLock()  # another thread of the parent may hold the old one
+        self._sender = None
 
     def _own_picture(self) -> Framebuffer:
         if self._own is None or (self._own.width, self._own.height) != self._size:
@@ -390,70 +533,163 @@ class Panel:
             return pixels[::-1, ::-1]
         return pixels[::-1].T if self._rotate == 90 else pixels[:, ::-1].T
 
-    def _retrying(self, operation: Callable[[], T]) -> T:
-        """Try again after a transient fault; each operation restores a chip of which it cannot be sure."""
+    # -- One call at a time
+
+    def _postponed(self, operation: Callable[[], object]) -> bool:
+        """Put an operation off if it comes in the middle of this thread's own call, as from a signal handler."""
+        inside: bool = self._lock._is_owned()  # type: ignore[attr-defined]
+        if inside:
+            self._later.append(operation)
+        return inside
+
+    def _hand_over(self, pixels: Levels, max_level: int) -> Report:
+        if self._sender is None:
+            self._sender = Sender(self)
+        self.stats.dropped += self._sender.put(pixels, max_level)
+        return Report(0, 0, 0, 0.0, queued=True)
+
+    def _show(self, pixels: Levels, max_level: int, force: bool = False) -> Report:
+        """Show checked levels."""
+        started = time.perf_counter()
+        if self._lock._is_owned():  # type: ignore[attr-defined]
+            copy = pixels.copy()
+            self._later.append(lambda: self._show_now(copy, max_level, force, time.perf_counter()))
+            return Report(0, 0, 0, 0.0, queued=True)
+        report = None
+        with self._lock:
+            try:
+                report = self._show_now(pixels, max_level, force, started)
+            finally:
+                if self._later and self._catch_up() and report is not None:
+                    self._show_now(pixels, max_level, False, time.perf_counter())
+        return report
+
+    def _catch_up(self) -> bool:
+        """Do what was put off; return whether the panel is still open then."""
+        while self._later:
+            self._later.pop(0)()
+        return not self._closed
+
+    def _show_now(self, pixels: Levels, max_level: int, force: bool, started: float) -> Report:
+        self._check()
+        self._pack(self._upright(pixels), max_level, self._planner.fresh)
+        if (
+            force
+            or (self._watched and started - self._looked > _LOOK and not self._alive(started))
+            or (self._refresh is not None and started - self._started > self._refresh)
+        ):
+            self._ready = False
+        report = Report(*self._do(self._send), time.perf_counter() - started)
+        self.stats.add(report)
+        return report
+
+    def _change(self, commands: Callable[[], Iterable[bytes]]) -> None:
+        """Send commands for a setting; first bring back the picture where the panel may have lost it."""
+        self._listen()
+
+        def operation() -> None:
+            if self._ready:
+                self._ready = False
+                self._command(*commands())
+                self._ready = True
+            else:
+                self._restore()  # which knows all settings
+                self._command(*commands())
+                self._ready = True
+
+        if self._postponed(lambda: self._do(operation)):
+            return
+        with self._lock:
+            try:
+                self._do(operation)
+            finally:
+                self._catch_up()
+
+    def _do(self, operation: Callable[[], T]) -> T:
+        """Try again after faults that may pass; each operation restores a chip of which it cannot be sure."""
+        first = 0.0
         for attempt in range(_RETRIES):
             try:
                 return operation()
             except TransportError as error:
-                if not error.transient:
-                    raise
+                self._ready = False
+                self._count(error)
+                first = first or time.perf_counter()
+                if not error.transient or time.perf_counter() - first > _PATIENCE:
+                    raise error.final() from error.__cause__
                 self.stats.retries += 1
-                time.sleep(_PAUSE * 2**attempt)
-        return operation()
+                time.sleep(_PATIENCE / 2 ** (_RETRIES - attempt))
+        try:
+            return operation()
+        except TransportError as error:
+            self._ready = False
+            self._count(error)
+            raise error.final() from error.__cause__
+
+    def _count(self, error: TransportError) -> None:
+        kind = errno.errorcode.get(error.errno or 0, type(error).__name__)
+        self.stats.faults[kind] = self.stats.faults.get(kind, 0) + 1
+
+    # -- What goes to the transport. `_ready` is False meanwhile: whatever ends a call early leaves it so.
 
     def _start(self) -> Sent:
         """Bring the chip from any state to a dark, configured one."""
         chip = self.controller
         commands = [*chip.init, *([chip.inverse] if self._inverted else ()), *self._brightness(), *self._kept]
-        self._lit = False
+        if self._started:
+            self.stats.restarts += 1
+        self._lit = self._watched = False
         sent = self._command(*([chip.resync] if chip.resync else ()), *commands)
         self._planner.restart()
+        self._started = self._looked = time.perf_counter()
+        self._watched = self._status() == chip.status_off != 0
         return sent
 
     def _send(self) -> tuple[int, int, int]:
         """Send the planner's fresh frame; return bytes on the wire, messages, changed bytes."""
         wire = messages = 0
-        if not self._ready:
+        ready, self._ready = self._ready, False
+        if not ready:
             wire, messages = self._start()
-        self._ready = False  # the planner counts a plan as sent
         plan = self._planner.plan()
         if plan.count:
             wire += self.transport.batch(plan)
             self._planner.sent()
             self._shown = True
-        self._ready = True
         if not (self._lit or self._asleep):
             power_on = self._command(self.controller.power_on)
             wire, messages = wire + power_on.wire_bytes, messages + power_on.messages
             self._lit = True
+            self._watched = self._watched and self._status() == 0
+        self._ready = True
         return wire, messages + plan.count, plan.changed
 
     def _command(self, *commands: bytes) -> Sent:
         """Send commands, each with its arguments."""
         wire = messages = 0
-        self._ready = False
         if self.controller.arguments_are_data:
             for command in commands:
                 wire += self.transport.command(command[:1])
                 if len(command) > 1:
                     wire += self.transport.data(command[1:])
                 messages += 1 + (len(command) > 1)
-        else:
+        elif commands:
             wire, messages = self.transport.command(b"".join(commands)), 1
-        self._ready = True
         return Sent(wire, messages)
 
-    def _change(self, *commands: bytes) -> None:
-        """Send a setting, after the picture where the panel may have lost it."""
-        self._check_open()
+    def _status(self) -> int | None:
+        """What the chip answers to a read, of the bit that says that the display is off; None if it cannot be read."""
+        read = getattr(self.transport, "read_status", None)
+        if read is None or not self.controller.status_off:
+            return None
+        with contextlib.suppress(TransportError):
+            return int(read()) & self.controller.status_off
+        return None
 
-        def attempt() -> None:
-            if not self._ready:
-                self._restore()
-            self._command(*commands)
-
-        self._retrying(attempt)
+    def _alive(self, now: float) -> bool:
+        """Whether the chip is still as it was left, as far as it tells."""
+        self._looked = now
+        return self._status() == (0 if self._lit else self.controller.status_off)
 
     def _brightness(self) -> tuple[bytes, ...]:
         """Commands for what was asked for; none where init's brightness is to stay."""
@@ -461,24 +697,33 @@ class Panel:
             return ()
         return *self.controller.contrast.commands(self._contrast), *self._drive
 
+    def _power(self) -> tuple[bytes, ...]:
+        """The command for light or none; there is no light before the first picture."""
+        self._lit = self._shown and not self._asleep
+        return (self.controller.power_on if self._lit else self.controller.power_off,)
+
     def _restore(self) -> None:
         if self._shown:
             self._send()
         else:
             self._start()
+            self._ready = True
 
     def _leave(self) -> None:
-        if self.on_close == "clear":
+        if self._on_close == "clear":
             self._planner.fresh[:] = 0
-            self._retrying(self._send)
-        elif self.on_close == "off":
-            self._retrying(self._darken)
+            self._send()
+        elif self._on_close == "off":
+            ready, self._ready = self._ready, False
+            self._command(self.controller.power_off) if ready else self._start()
 
-    def _darken(self) -> None:
-        if self._ready:
-            self._command(self.controller.power_off)
-        else:
-            self._start()
+    def _look_after(self) -> None:
+        """Do what is due when no picture came for a while."""
+
+
+def _check_on_close(value: str) -> None:
+    if value not in _ON_CLOSE:
+        raise ValueError(f"on_close must be one of {', '.join(map(repr, _ON_CLOSE))}, not {value!r}")
 
 
 def _checked_contrast(controller: Controller, level: int) -> int:

@@ -15,6 +15,7 @@ import paneldraw
 
 #: Public objects that may do without an example.
 WITHOUT_EXAMPLE = {
+    "paneldraw.controllers.BUSES",
     "paneldraw.controllers.CHIPS",
     "paneldraw.controllers.Controller",
     "paneldraw.simulator.Frame",
@@ -26,6 +27,7 @@ WITHOUT_EXAMPLE = {
     "paneldraw.transports.Plan",
     "paneldraw.transports.Transport",
     "paneldraw.update.Planner",
+    "paneldraw.update.UPDATES",
 }
 
 

@@ -161,6 +161,8 @@ class Controller:
         How it is told the brightness; None where it has none. Default: ``81`` and a byte.
     drive : tuple of tuple of bytes
         Commands for precharge and COM voltage, as init has them and then for steps ever darker. Default: none.
+    status_off : int
+        Bit of the byte read from it on I2C that says that the display is off; 0 if that cannot be read. Default: bit 6.
     buses : tuple of str
         What it can be on: ``"i2c"``, ``"spi"``. Default: both.
     """
@@ -185,6 +187,7 @@ class Controller:
     inverse: bytes = b"\xa7"
     contrast: Contrast | None = Contrast()
     drive: tuple[tuple[bytes, ...], ...] = ()
+    status_off: int = 0x40
     buses: tuple[str, ...] = ("i2c", "spi")
 
     def __post_init__(self) -> None:

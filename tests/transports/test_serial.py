@@ -148,7 +148,7 @@ def test_a_pixel_is_thirteen_bytes_at_most_after_anything(steps, seed):
 def test_what_repeats_is_packed(path, board, chip):
     with opened(path) as panel:
         panel.show(NOISE)
-        assert panel.show(np.ones((64, 128), np.uint8), force=True).wire_bytes < 100
+        assert panel.show(np.ones((64, 128), np.uint8)).wire_bytes < 100
         assert chip.pixels.all()
 
 

@@ -1,0 +1,116 @@
+"""A thread that shows pictures for a panel: the latest one wins; and what is done when none comes for a while."""
+
+from __future__ import annotations
+
+import threading
+import time
+import weakref
+from typing import TYPE_CHECKING
+
+import numpy as np
+import numpy.typing as npt
+
+from paneldraw.errors import PanelTimeoutError
+
+if TYPE_CHECKING:
+    from paneldraw.panel import Panel
+
+
+class Sender:
+    """One thread for one panel, started with the first picture; it ends with `stop`, or with the panel.
+
+    Parameters
+    ----------
+    panel : Panel
+        Who shows the pictures. The thread holds it only while it does.
+    """
+
+    def __init__(self, panel: Panel) -> None:
+        self._panel = weakref.ref(panel)
+        self._change = threading.Condition()
+        self._waiting: npt.NDArray[np.uint8] | None = None
+        self._max_level = 1
+        self._busy = False
+        self._stopped = False
+        self._error: BaseException | None = None
+        self._due: float | None = None
+        self._thread: threading.Thread | None = None
+
+    def put(self, pixels: npt.NDArray[np.uint8], max_level: int) -> bool:
+        """Hand over a picture; return whether it takes the place of one that waited."""
+        with self._change:
+            dropped = self._waiting is not None
+            self._waiting, self._max_level = pixels, max_level
+            self._run()
+        return dropped
+
+    def wake_at(self, seconds: float | None) -> None:
+        """Say when, on the monotonic clock, the panel has to be looked after; None is never."""
+        with self._change:
+            self._due = seconds
+            if seconds is not None:
+                self._run()
+
+    def flush(self, timeout: float | None = None) -> None:
+        """Wait until nothing waits and nothing is under way; raise what went wrong since the last call."""
+        with self._change:
+            if not self._change.wait_for(lambda: self._waiting is None and not self._busy, timeout):
+                raise PanelTimeoutError(None, f"the last picture was not shown within {timeout} s: is the bus stuck?")
+        self.raise_error()
+
+    def raise_error(self) -> None:
+        """Raise what went wrong in the thread, once."""
+        error, self._error = self._error, None
+        if error is not None:
+            raise error
+
+    @property
+    def failed(self) -> bool:
+        """Whether something went wrong that nobody has heard of."""
+        return self._error is not None
+
+    def stop(self, timeout: float = 2.0) -> None:
+        """Forget what waits, let what is under way end, and end the thread."""
+        with self._change:
+            self._stopped, self._waiting = True, None
+            self._change.notify_all()
+        if self._thread is not None and self._thread is not threading.current_thread():
+            self._thread.join(timeout)
+
+    def _run(self) -> None:
+        if self._thread is None and not self._stopped:
+            self._thread = threading.Thread(target=self._work, name="paneldraw sender", daemon=True)
+            self._thread.start()
+        self._change.notify_all()
+
+    def _work(self) -> None:
+        while True:
+            with self._change:
+                while not (self._stopped or self._waiting is not None or self._overdue()):
+                    self._change.wait(None if self._due is None else max(0.0, self._due - time.monotonic()))
+                if self._stopped:
+                    return
+                pixels, max_level, self._waiting = self._waiting, self._max_level, None
+                if pixels is None:
+                    self._due = None
+                self._busy = True
+            self._serve(pixels, max_level)
+            with self._change:
+                self._busy = False
+                self._change.notify_all()
+
+    def _overdue(self) -> bool:
+        return self._due is not None and time.monotonic() >= self._due
+
+    def _serve(self, pixels: npt.NDArray[np.uint8] | None, max_level: int) -> None:
+        panel = self._panel()
+        if panel is None:
+            self._stopped = True
+            return
+        try:
+            if pixels is None:
+                panel._look_after()
+            else:
+                panel._show(pixels, max_level)
+        except BaseException as error:  # the caller's to hear, whatever it is
+            self._error = error
