@@ -4,21 +4,19 @@ from __future__ import annotations
 
 import ctypes
 import errno as codes
-import os
-import threading
 import time
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any, Protocol
 
-EREMOTEIO = 121
+from .wire import EREMOTEIO, Fault, Wire, os_error
+
 _MAX_MESSAGES = 42
 _MAX_MESSAGE_BYTES = 8192
 _MAX_BLOCK = 32
 _READ = 0x0001
 # I2C_FUNC_I2C and what Linux emulates of SMBus on plain I2C adapters, less packet error checking.
 _FUNCS = 0x0EFF0001
-_MESSAGE_OF_EREMOTEIO = "Remote I/O error"
 
 
 class Device(Protocol):
@@ -32,18 +30,6 @@ class Device(Protocol):
 
     def settle(self, seconds: float, wire_bytes: int) -> None:
         """Note that a bus call is over; it put `wire_bytes` bytes on the wire for this chip and ended at `seconds`."""
-
-
-@dataclass
-class Fault:
-    """A fault waiting on a bus; see `I2CBus.fail` for what the fields mean."""
-
-    errno: int
-    after: int
-    at_byte: int | None
-    times: int | None
-    address: int | None
-    then: Callable[[], object] | None
 
 
 @dataclass
@@ -64,7 +50,7 @@ class _ShortTransferError(Exception):
     """The adapter stopped early and reports no error."""
 
 
-class I2CBus:
+class I2CBus(Wire):
     """A simulated I2C bus. Drivers take it where they take an open ``smbus2.SMBus``.
 
     Parameters
@@ -124,20 +110,13 @@ class I2CBus:
         for device in self.devices.values():
             if "i2c" not in (busses := getattr(device, "busses", ("i2c",))):
                 raise ValueError(f"devices: an {type(device).__name__} sits on {' or '.join(busses)}, not on I2C")
+        super().__init__(timer)
         self.clock = clock
-        self.bytes = 0
-        self.messages = 0
         self.transactions = 0
-        self.seconds = 0.0
         self.fd: int | None = None
         self.funcs = 0
         self.address: int | None = None
         self.force = False
-        self._timer = timer
-        self._started = timer() if timer else 0.0
-        self._now = 0.0
-        self._faults: list[Fault] = []
-        self._lock = threading.RLock()
         self.open(0)
 
     # as smbus2 has it
@@ -184,7 +163,7 @@ class I2CBus:
                 raise TypeError(f"expected i2c_msg instance, got {type(message).__name__}")
         self._check_open()
         if not 1 <= len(i2c_msgs) <= _MAX_MESSAGES or any(m.len > _MAX_MESSAGE_BYTES for m in i2c_msgs):
-            raise _os_error(codes.EINVAL)
+            raise os_error(codes.EINVAL)
         parts = [
             _Message(m.addr, length=m.len) if m.flags & _READ else _Message(m.addr, ctypes.string_at(m.buf, m.len))
             for m in i2c_msgs
@@ -250,7 +229,7 @@ class I2CBus:
     def read_block_data(self, i2c_addr: int, register: int, force: bool | None = None) -> list[int]:
         """Refuse an SMBus block read with errno 95, as adapters do that are not SMBus hosts."""
         self._check_open()
-        raise _os_error(codes.EOPNOTSUPP)
+        raise os_error(codes.EOPNOTSUPP)
 
     def block_process_call(
         self, i2c_addr: int, register: int, data: Iterable[int], force: bool | None = None
@@ -259,14 +238,7 @@ class I2CBus:
         _block(data)
         return self.read_block_data(i2c_addr, register)
 
-    # time and faults
-
-    def idle(self, seconds: float) -> None:
-        """Let time pass with the wire at rest, as a script's pause does; the next frame is stamped that much later."""
-        if not seconds >= 0:
-            raise ValueError(f"seconds: {seconds!r} is not 0 or more")
-        with self._lock:
-            self._now += seconds
+    # faults
 
     def fail(
         self,
@@ -315,15 +287,7 @@ class I2CBus:
         >>> chip.contrast
         64
         """
-        if after < 0 or (at_byte is not None and at_byte < 0) or (times is not None and times < 1):
-            raise ValueError("after and at_byte are 0 or more, times is 1 or more")
-        fault = Fault(errno, after, at_byte, times, address, then)
-        self._faults.append(fault)
-        return fault
-
-    def clear_faults(self) -> None:
-        """Forget all faults that wait."""
-        self._faults.clear()
+        return self._await(Fault(errno, after, at_byte, times, then, address))
 
     # inside
 
@@ -334,7 +298,7 @@ class I2CBus:
     def _smbus(self, address: int, payload: bytes | None, length: int | None = None) -> bytes:
         self._check_open()
         if not 0 <= address <= 0x7F:
-            raise _os_error(codes.EINVAL)
+            raise os_error(codes.EINVAL)
         self.address = address
         parts = [] if payload is None else [_Message(address, payload)]
         if length is not None:
@@ -342,7 +306,7 @@ class I2CBus:
         try:
             self._transfer(parts)
         except _ShortTransferError:
-            raise _os_error(codes.EIO) from None
+            raise os_error(codes.EIO) from None
         return parts[-1].answer
 
     def _transfer(self, parts: list[_Message]) -> None:
@@ -359,18 +323,14 @@ class I2CBus:
                     finally:
                         touched[part.address] = touched.get(part.address, 0) + self.bytes - before
             finally:
-                busy = (9 * (self.bytes - bytes_before) + started + 1) / self.clock
-                self._settle(busy, touched)
+                now = self._elapse((9 * (self.bytes - bytes_before) + started + 1) / self.clock)
+                self._settle(now, touched)
 
-    def _settle(self, busy: float, touched: dict[int, int]) -> None:
-        self.seconds += busy
-        self._now += busy
-        if self._timer:
-            self._now = max(self._now, self._timer() - self._started)
+    def _settle(self, now: float, touched: dict[int, int]) -> None:
         for address, wire_bytes in touched.items():
             device = self.devices.get(address)
             if device is not None:
-                device.settle(self._now, wire_bytes)
+                device.settle(now, wire_bytes)
 
     def _carry(self, part: _Message) -> None:
         """Put one message on the wire, as far as chip and faults let it."""
@@ -380,8 +340,8 @@ class I2CBus:
         device = self.devices.get(part.address)
         if device is None or (fault and fault.at_byte is None):
             self._raise(fault)
-            raise _os_error(EREMOTEIO)
-        got = part.size if fault is None or fault.at_byte is None else min(fault.at_byte, part.size)
+            raise os_error(EREMOTEIO)
+        got = part.size if fault is None else fault.reach(part.size)
         self.bytes += got
         if part.length is None:
             device.write(part.payload[:got])
@@ -395,27 +355,7 @@ class I2CBus:
             return
         if fault.then:
             fault.then()
-        raise _os_error(fault.errno) if fault.errno else _ShortTransferError
-
-    def _due(self, address: int) -> Fault | None:
-        """Count one message against every waiting fault; the first that is due strikes."""
-        due: Fault | None = None
-        for fault in list(self._faults):
-            if fault.address not in (None, address):
-                continue
-            if fault.after:
-                fault.after -= 1
-            elif due is None:
-                due = fault
-                if fault.times is not None:
-                    fault.times -= 1
-                    if not fault.times:
-                        self._faults.remove(fault)
-        return due
-
-
-def _os_error(code: int) -> OSError:
-    return OSError(code, _MESSAGE_OF_EREMOTEIO if code == EREMOTEIO else os.strerror(code))
+        raise os_error(fault.errno) if fault.errno else _ShortTransferError
 
 
 def _bytes(values: Iterable[int]) -> bytes:

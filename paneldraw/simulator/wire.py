@@ -1,0 +1,90 @@
+"""What simulated buses have in common: counts, time on the wire, and faults on demand."""
+
+from __future__ import annotations
+
+import os
+import threading
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Final
+
+EREMOTEIO: Final = 121
+_MESSAGE_OF_EREMOTEIO: Final = "Remote I/O error"
+
+
+@dataclass
+class Fault:
+    """A fault waiting on a bus; the `fail` of the bus says what the fields mean."""
+
+    errno: int
+    after: int
+    at_byte: int | None
+    times: int | None
+    then: Callable[[], object] | None
+    address: int | None = None
+
+    def __post_init__(self) -> None:
+        if self.after < 0 or (self.at_byte or 0) < 0 or (self.times is not None and self.times < 1):
+            raise ValueError("after and at_byte are 0 or more, times is 1 or more")
+
+    def reach(self, size: int) -> int:
+        """How many of a message's bytes arrive."""
+        return min(self.at_byte or 0, size)
+
+
+class Wire:
+    """Counts, time and faults of a bus; `I2CBus` says what the attributes are."""
+
+    def __init__(self, timer: Callable[[], float] | None) -> None:
+        self.bytes = 0
+        self.messages = 0
+        self.seconds = 0.0
+        self._timer = timer
+        self._started = timer() if timer else 0.0
+        self._now = 0.0
+        self._faults: list[Fault] = []
+        self._lock = threading.RLock()
+
+    def idle(self, seconds: float) -> None:
+        """Let time pass with the wire at rest, as a script's pause does; the next frame is stamped that much later."""
+        if not seconds >= 0:
+            raise ValueError(f"seconds: {seconds!r} is not 0 or more")
+        with self._lock:
+            self._now += seconds
+
+    def clear_faults(self) -> None:
+        """Forget all faults that wait."""
+        self._faults.clear()
+
+    def _elapse(self, busy: float) -> float:
+        """Count time that the wire was busy; return what time it is now."""
+        self.seconds += busy
+        self._now += busy
+        if self._timer:
+            self._now = max(self._now, self._timer() - self._started)
+        return self._now
+
+    def _await(self, fault: Fault) -> Fault:
+        self._faults.append(fault)
+        return fault
+
+    def _due(self, address: int | None = None) -> Fault | None:
+        """Count one message against every waiting fault; the first that is due strikes."""
+        due: Fault | None = None
+        for fault in list(self._faults):
+            if fault.address not in (None, address):
+                continue
+            if fault.after:
+                fault.after -= 1
+            elif due is None:
+                due = fault
+                if fault.times is not None:
+                    fault.times -= 1
+                    if not fault.times:
+                        self._faults.remove(fault)
+        return due
+
+
+def os_error(code: int) -> OSError:
+    """Make the error that Linux reports under a number, on any system."""
+    return OSError(code, _MESSAGE_OF_EREMOTEIO if code == EREMOTEIO else os.strerror(code))
