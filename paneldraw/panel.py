@@ -639,6 +639,7 @@ class Panel:
         if self._started:
             self.stats.restarts += 1
         self._lit = self._watched = False
+        self.transport.reset()
         sent = self._command(*([chip.resync] if chip.resync else ()), *commands)
         self._planner.restart()
         self._started = self._looked = time.perf_counter()

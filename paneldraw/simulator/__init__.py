@@ -8,6 +8,7 @@ from .bus import I2CBus
 from .frames import Frame
 from .recorder import Look, contact_sheet, image, save
 from .sh110x import SH1106, SH1107
+from .spi import SPIBus
 from .ssd130x import SSD1306, SSD1309
 from .ssd132x import SSD1322, SSD1327
 from .terminal import TerminalView, text
@@ -25,6 +26,7 @@ __all__ = [
     "Frame",
     "I2CBus",
     "Look",
+    "SPIBus",
     "TerminalView",
     "contact_sheet",
     "image",

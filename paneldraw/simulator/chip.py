@@ -81,8 +81,11 @@ class Chip(ABC):
         """Take one I2C write: the bytes after the address byte."""
 
     @abstractmethod
-    def transfer(self, run: bytes | bytearray | memoryview, data: bool) -> None:
-        """Take bytes over SPI, with the D/C line low (`data` False: commands) or high."""
+    def transfer(self, run: bytes | bytearray | memoryview, data: bool) -> bytes | None:
+        """Take bytes over SPI, with the D/C line low (`data` False: commands) or high.
+
+        Return the bytes that leave the chip's data output meanwhile, None from one that has none.
+        """
 
     def deselect(self) -> None:  # noqa: B027 - most chips do not care
         """Note that the chip select of the SPI rises."""

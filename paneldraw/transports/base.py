@@ -9,6 +9,8 @@ from typing import Final, NamedTuple, Protocol
 import numpy as np
 import numpy.typing as npt
 
+from paneldraw.errors import TransportError
+
 COMMAND: Final = 0x00
 DATA: Final = 0x40
 CHAINED: Final = 0x80
@@ -92,5 +94,19 @@ class Transport(Protocol):
     def batch(self, plan: Plan) -> int:
         """Send all messages of a plan in order."""
 
+    def reset(self) -> bool:
+        """Pulse the panel's reset line unless nothing was sent since the last time; return whether there is one."""
+
     def close(self) -> None:
         """Release what the transport opened itself. Closing twice does nothing."""
+
+
+def transient(error: TransportError) -> TransportError:
+    """Mark an error as one after which the same write may well succeed."""
+    error.transient = True
+    return error
+
+
+def join_group(group: str) -> str:
+    """Say what to do where only a group may open a device."""
+    return f"add the user to group {group} (`sudo usermod -aG {group} $USER`) and log in again"

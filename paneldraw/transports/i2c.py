@@ -20,7 +20,8 @@ from paneldraw.errors import (
     PanelTimeoutError,
     TransportError,
 )
-from paneldraw.transports.base import CHAINED, COMMAND, DATA, Cost, Plan
+from paneldraw.transports.base import CHAINED, COMMAND, DATA, Cost, Plan, join_group, transient
+from paneldraw.transports.pins import Line, PanelLines, Pins
 
 MESSAGES_A_CALL: Final = 42
 BYTES_A_MESSAGE: Final = 8192
@@ -43,11 +44,18 @@ class I2CTransport:
     max_message : int, optional
         Longest message in bytes that the bus adapter takes, control byte included, 2 to 8192. Default: 8192, the
         kernel's own limit.
+    reset : int or str, optional
+        GPIO line of the module's reset pin, which is pulsed here and by `reset`: a number on the header's chip (BCM's,
+        not the pin's) or the line's name. Default: none, as most modules reset themselves; 2.42-inch ones do not.
+    pins : object, optional
+        An object with a method ``set(line, value)``. Default: the line through gpiod.
+    gpiochip : int or str, optional
+        Number or path of the GPIO chip that has the line. Default: the header's.
 
     Raises
     ------
-    PanelNotFoundError, PanelPermissionError
-        The bus cannot be opened.
+    PanelNotFoundError, PanelPermissionError, PanelBusyError
+        The bus or the line cannot be opened.
 
     Examples
     --------
@@ -59,7 +67,16 @@ class I2CTransport:
 
     wire = "i2c"
 
-    def __init__(self, bus: Any = 1, address: int = 0x3C, *, max_message: int = BYTES_A_MESSAGE) -> None:
+    def __init__(
+        self,
+        bus: Any = 1,
+        address: int = 0x3C,
+        *,
+        max_message: int = BYTES_A_MESSAGE,
+        reset: Line | None = None,
+        pins: Pins | None = None,
+        gpiochip: int | str | None = None,
+    ) -> None:
         if isinstance(address, bool) or not isinstance(address, int):
             raise TypeError(f"address must be an int, not {address!r}")
         if not 0x08 <= address <= 0x77:
@@ -78,6 +95,11 @@ class I2CTransport:
             raise ValueError(f"bus must be 0 or more, not {bus}")
         self.name = _path(bus) if self._owned else type(bus).__name__
         self.bus = self._open(self.name) if self._owned else bus
+        try:
+            self._lines = PanelLines(None, reset, pins, gpiochip)
+        except BaseException:
+            self._close_bus()
+            raise
         self._answered = False
         self._messages = _Messages(self._smbus2.i2c_msg, address)
 
@@ -100,8 +122,16 @@ class I2CTransport:
             self._send(messages[first : first + number])
         return plan.cost
 
+    def reset(self) -> bool:
+        """Pulse the reset line unless nothing was sent since the last time; return whether there is one."""
+        return self._lines.reset()
+
     def close(self) -> None:
-        """Close the bus if it was opened here. Closing twice does nothing."""
+        """Close the bus and the line if they were opened here. Closing twice does nothing."""
+        self._lines.close()
+        self._close_bus()
+
+    def _close_bus(self) -> None:
         if self._owned and self.bus is not None:
             self.bus.close()
             self.bus = None
@@ -120,6 +150,7 @@ class I2CTransport:
     def _send(self, messages: list[Any]) -> None:
         if self.bus is None:
             raise TransportError(errno.EBADF, f"the transport to {self.name} is closed")
+        self._lines.fresh = False
         try:
             done = self._rdwr(*messages)
         except OSError as error:
@@ -153,10 +184,10 @@ class I2CTransport:
             kind = PanelDisconnectedError if self._answered else PanelNotFoundError
             return kind(code, f"nobody answers at {where}: {self._advice()}")
         if code in _BUSY:
-            return _transient(PanelBusyError(code, f"{self.name} is busy: is another master or program using it?"))
+            return transient(PanelBusyError(code, f"{self.name} is busy: is another master or program using it?"))
         if code == errno.ETIMEDOUT:
             advice = "check SDA, SCL and the pull-up resistors, or try a slower clock"
-            return _transient(PanelTimeoutError(code, f"no end of a transfer to {where}: {advice}"))
+            return transient(PanelTimeoutError(code, f"no end of a transfer to {where}: {advice}"))
         if code == errno.EOPNOTSUPP:
             advice = f"give I2CTransport a max_message below {self.max_message}"
             return TransportError(code, f"cannot write to {where}: the adapter takes no messages this long: {advice}")
@@ -228,15 +259,9 @@ def _path(bus: Any) -> str:
     return f"/dev/i2c-{bus}" if isinstance(bus, int) else os.fspath(bus)
 
 
-def _transient(error: TransportError) -> TransportError:
-    error.transient = True
-    return error
-
-
 def _not_opened(error: OSError, path: str) -> TransportError:
     if error.errno == errno.EACCES or error.errno == errno.EPERM:
-        advice = "add the user to group i2c (`sudo usermod -aG i2c $USER`) and log in again"
-        return PanelPermissionError(error.errno, f"no permission to open {path}: {advice}")
+        return PanelPermissionError(error.errno, f"no permission to open {path}: {join_group('i2c')}")
     if error.errno in (errno.ENOENT, errno.ENODEV, errno.ENXIO):
         there = ", ".join(sorted(glob.glob("/dev/i2c-*")))
         advice = "enable I2C (on a Raspberry Pi: `sudo raspi-config nonint do_i2c 0`, then reboot)"

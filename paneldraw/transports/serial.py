@@ -19,7 +19,7 @@ from paneldraw.errors import (
     ProtocolError,
     TransportError,
 )
-from paneldraw.transports.base import DATA, Cost, Plan
+from paneldraw.transports.base import DATA, Cost, Plan, join_group
 
 if TYPE_CHECKING:
     from firmware_protocol import HelloReply, HostLink, LinkError, PanelFaultError, Status
@@ -134,6 +134,10 @@ class SerialTransport:
         """Send a plan, in as many frames as the board's memory asks for; return the bytes on the wire."""
         return self._write(((kind == DATA, payload) for kind, payload in plan), end=True)
 
+    def reset(self) -> bool:
+        """Return False: the panel's reset line is the board's."""
+        return False
+
     def close(self) -> None:
         """Leave the board at its first rate and close the port. Closing twice does nothing."""
         self.link.close()
@@ -222,8 +226,7 @@ def _code(error: BaseException | None) -> int | None:
 def _not_opened(error: Exception, name: str) -> TransportError:
     code = _code(error)
     if code in _DENIED:
-        advice = f"add the user to group {_group(name)} (`sudo usermod -aG {_group(name)} $USER`) and log in again"
-        return PanelPermissionError(code, f"no permission to open {name}: {advice}")
+        return PanelPermissionError(code, f"no permission to open {name}: {join_group(_group(name))}")
     if code in _IN_USE:
         return PanelBusyError(code, f"{name} is in use: close the other program that has it open and try again")
     if "://" in name:
