@@ -55,7 +55,7 @@ def hello() -> Image.Image:
 def glass_of(script: str) -> Any:
     """Run a script in an interpreter and a folder of its own; return the pixels of its simulated panel."""
     look = "import runpy; panel = runpy.run_path('script.py')['panel']; "
-    look += "import numpy; numpy.save('glass', panel.transport.bus.devices[0x3C].pixels)"
+    look += "import numpy; numpy.save('glass', panel.simulated.pixels)"
     environment = {name: value for name, value in os.environ.items() if name != "PANELDRAW_PANEL"}
     with tempfile.TemporaryDirectory() as folder:
         Path(folder, "script.py").write_text(script, encoding="utf-8")

@@ -24,7 +24,7 @@ from paneldraw.framebuffer import Framebuffer, pictures
 from paneldraw.leaving import arrange, follow
 from paneldraw.pacing import Frames
 from paneldraw.sender import Sender
-from paneldraw.transports import I2CTransport, SerialTransport, Transport
+from paneldraw.transports import I2CTransport, SerialTransport, SPITransport, Transport
 from paneldraw.update import Planner
 
 Levels = npt.NDArray[np.uint8]
@@ -126,6 +126,11 @@ class Panel:
         run addressed in full, with nothing assumed of the chip's pointers, for clones that do not keep to the
         datasheet; or ``"whole"``, every picture that differs as a whole, as plainly.
 
+    Attributes
+    ----------
+    simulated : object
+        The simulated chip, where `open_panel` made one; else None.
+
     Raises
     ------
     ValueError
@@ -181,6 +186,7 @@ class Panel:
         self.controller = controller
         self.transport = transport
         self.stats = Stats()
+        self.simulated: Any = None
         self._lock = threading.RLock()
         self._later: list[Callable[[], object]] = []
         self._closed = False
@@ -758,11 +764,12 @@ def open_panel(url: str | None = None) -> Panel:
         ``i2c://1/0x3c?chip=ssd1306&size=128x64&rotate=180`` is a panel on bus 1 (or ``i2c:///dev/i2c-1/0x3c``);
         ``serial:///dev/ttyACM0?baudrate=1000000`` one behind a microcontroller, which says what it is; where a device's
         name stands, pyserial's ``socket://host:port``, ``rfc2217://host:port`` and the like may stand, without
-        ``serial://`` too; ``sim://ssd1306?size=128x64`` a simulated one, whose chip is
-        ``panel.transport.bus.devices[0x3C]``. Parameters are ``chip`` (of i2c and serial; a key of
-        `paneldraw.controllers.CHIPS`), ``size``, the chip's own ones such as ``column_offset=2``, ``com_pins=0x12`` and
-        ``mirror_x=1``, ``rotate``, ``contrast``, ``on_close`` and ``updates`` of `Panel`, ``max_message`` of i2c and
-        ``baudrate`` of serial. Default: what the environment variable PANELDRAW_PANEL says, else ``sim://ssd1306``.
+        ``serial://`` too; ``spi://0.0?chip=ssd1322&dc=24&reset=25`` one on chip select 0 of SPI bus 0;
+        ``sim://ssd1306?size=128x64`` a simulated one, whose chip is ``panel.simulated``. Parameters are ``chip`` (a key
+        of `paneldraw.controllers.CHIPS`), ``size``, the chip's own ones such as ``column_offset=2``, ``com_pins=0x12``
+        and ``mirror_x=1``, ``rotate``, ``contrast``, ``on_close`` and ``updates`` of `Panel`, ``max_message`` of i2c,
+        ``dc`` and ``speed`` of spi, ``reset`` and ``gpiochip`` of both, and ``baudrate`` of serial. Default: what the
+        environment variable PANELDRAW_PANEL says, else ``sim://ssd1306``.
 
     Raises
     ------
@@ -781,6 +788,7 @@ def open_panel(url: str | None = None) -> Panel:
     """
     wanted = urls.parse(os.environ.get("PANELDRAW_PANEL") or "sim://ssd1306" if url is None else url)
     transport: Transport
+    simulated = None
     with contextlib.ExitStack() as unless_done:
         if isinstance(wanted, urls.SerialURL):
             transport = port = SerialTransport(wanted.port, wanted.baudrate)
@@ -789,16 +797,20 @@ def open_panel(url: str | None = None) -> Panel:
         else:
             controller = wanted.controller
             if wanted.scheme == "sim":
-                transport = _simulated(wanted)
+                transport, simulated = _simulated(wanted)
+            elif wanted.scheme == "spi":
+                transport = SPITransport(int(wanted.bus), **wanted.transport)
             else:
                 transport = I2CTransport(wanted.bus, wanted.address, **wanted.transport)
             unless_done.callback(transport.close)
         panel = Panel(controller, transport, **wanted.panel)
         unless_done.pop_all()
+    panel.simulated = simulated
     return panel
 
 
-def _simulated(wanted: urls.PanelURL) -> I2CTransport:
+def _simulated(wanted: urls.PanelURL) -> tuple[Transport, Any]:
+    """Make a simulated chip, on the first kind of bus that it can sit on, and the transport to it."""
     from paneldraw import simulator  # a script with a real panel does not pay for it
 
     controller = wanted.controller
@@ -806,4 +818,7 @@ def _simulated(wanted: urls.PanelURL) -> I2CTransport:
     if not wanted.module.get("charge_pump", True):
         wiring["external_vcc"] = True
     chip = getattr(simulator, controller.name.upper())(controller.width, controller.height, **wiring)
-    return I2CTransport(simulator.I2CBus({wanted.address: chip}), wanted.address)
+    if "i2c" in controller.buses:
+        return I2CTransport(simulator.I2CBus({wanted.address: chip}), wanted.address), chip
+    bus = simulator.SPIBus(chip)
+    return SPITransport(spi=bus.spi, pins=bus.pins), chip

@@ -11,9 +11,8 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from .simulator import Frame, I2CBus, TerminalView, save
+from .simulator import Frame, TerminalView, save
 from .simulator.recorder import Showing
-from .transports import I2CTransport
 
 if TYPE_CHECKING:
     from .demos import Demo
@@ -54,11 +53,7 @@ class Progress:
 
 def simulated(panel: Panel) -> Showing | None:
     """Return the chip behind a panel if it is a simulated one."""
-    transport = panel.transport
-    if not (isinstance(transport, I2CTransport) and isinstance(transport.bus, I2CBus)):
-        return None
-    chip = transport.bus.devices.get(transport.address)
-    return chip if isinstance(chip, Showing) else None
+    return panel.simulated if isinstance(panel.simulated, Showing) else None
 
 
 def print_panel(panel: Panel, caption: str) -> None:

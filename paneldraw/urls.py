@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Final
 from urllib.parse import SplitResult, parse_qsl, unquote, urlencode, urlsplit
 
-from paneldraw.controllers import CHIPS, Controller
+from paneldraw.controllers import BUSES, CHIPS, Controller
 from paneldraw.errors import ProtocolError
 
 if TYPE_CHECKING:
@@ -17,6 +17,7 @@ _ADDRESS: Final = 0x3C
 _FORMS: Final = {
     "i2c": "i2c://1/0x3c?chip=ssd1306&size=128x64&rotate=180",
     "serial": "serial:///dev/ttyACM0?baudrate=1000000",
+    "spi": "spi://0.0?chip=ssd1322&dc=24&reset=25&speed=8000000",
     "sim": "sim://ssd1306?size=128x64",
 }
 _PYSERIAL: Final = ("rfc2217", "socket", "loop")
@@ -35,10 +36,10 @@ class PanelURL:
     Attributes
     ----------
     scheme : str
-        ``"i2c"`` or ``"sim"``.
+        ``"i2c"``, ``"spi"`` or ``"sim"``.
     controller : Controller
     bus : int or str
-        Number of the I2C bus or path of its device.
+        Number of the I2C bus or path of its device; number of the SPI bus.
     address : int
         Address on the bus.
     module : dict
@@ -111,6 +112,8 @@ def parse(url: str) -> PanelURL | SerialURL:
     parts = urlsplit(url)
     if parts.scheme == "i2c":
         return _i2c(parts)
+    if parts.scheme == "spi":
+        return _spi(parts)
     if parts.scheme in ("serial", *_PYSERIAL):
         return _serial(parts)
     if parts.scheme == "sim":
@@ -119,7 +122,7 @@ def parse(url: str) -> PanelURL | SerialURL:
             raise ValueError(f"url must have the form {_FORMS['sim']}, not {url!r}")
         return PanelURL(
             "sim",
-            _on_i2c(_controller(parts.netloc or _CHIP, query)),
+            _controller(parts.netloc or _CHIP, query),
             module=_module(query),
             panel=_settings(query, _PANEL),
         )
@@ -139,7 +142,8 @@ def serial(port: str) -> SerialURL:
 
 
 def _i2c(parts: SplitResult) -> PanelURL:
-    query = _query(parts, "chip", *_MODULE, "max_message", *_PANEL)
+    lines = ("reset", "gpiochip")
+    query = _query(parts, "chip", *_MODULE, "max_message", *lines, *_PANEL)
     if parts.netloc:
         place, address = parts.netloc, parts.path.strip("/")
     else:  # i2c:///dev/i2c-1/0x3c
@@ -148,13 +152,35 @@ def _i2c(parts: SplitResult) -> PanelURL:
         raise ValueError(f"url must have the form {_FORMS['i2c']}, not {parts.geturl()!r}")
     return PanelURL(
         "i2c",
-        _on_i2c(_controller(query.get("chip", _CHIP), query)),
+        _on("i2c", _controller(query.get("chip", _CHIP), query)),
         bus=int(place) if place.isdecimal() else place,
         address=_number(address, "address", "0x3c") if address else _ADDRESS,
         module=_module(query),
-        transport=_settings(query, {"max_message": "32"}),
+        transport=_settings(query, {"max_message": "32"}) | _lines(query, *lines),
         panel=_settings(query, _PANEL),
     )
+
+
+def _spi(parts: SplitResult) -> PanelURL:
+    lines = ("dc", "reset", "gpiochip")
+    query = _query(parts, "chip", *_MODULE, *lines, "speed", *_PANEL)
+    bus, _, device = parts.netloc.partition(".")
+    if not (bus.isdecimal() and device.isdecimal()) or parts.path.strip("/"):
+        raise ValueError(f"url must have the form {_FORMS['spi']}, not {parts.geturl()!r}")
+    return PanelURL(
+        "spi",
+        _on("spi", _controller(query.get("chip", _CHIP), query)),
+        bus=int(bus),
+        module=_module(query),
+        transport={"device": int(device)} | _settings(query, {"speed": "8000000"}) | _lines(query, *lines),
+        panel=_settings(query, _PANEL),
+    )
+
+
+def _lines(query: dict[str, str], *names: str) -> dict[str, int | str | None]:
+    """GPIO lines, and their chip, by number or name; ``none`` is none."""
+    said = {name: query[name] for name in names if name in query}
+    return {name: None if text == "none" else int(text) if text.isdecimal() else text for name, text in said.items()}
 
 
 def _serial(parts: SplitResult) -> SerialURL:
@@ -213,9 +239,12 @@ def _module(query: dict[str, str]) -> dict[str, Any]:
     return {name: _switch(query, name) if name in _SWITCHES else _number(query[name], name, "2") for name in said}
 
 
-def _on_i2c(controller: Controller) -> Controller:
-    if "i2c" not in controller.buses:
-        raise ValueError(f"chip must be one that I2C reaches, not {controller.name!r}: it is on SPI, behind a board")
+def _on(bus: str, controller: Controller) -> Controller:
+    if bus not in controller.buses:
+        forms = " or ".join(_FORMS[bus].partition("?")[0] for bus in controller.buses)
+        buses = " and ".join(BUSES[bus] for bus in controller.buses)
+        complaint = f"chip must be one that {BUSES[bus]} reaches, not {controller.name!r}: it is on {buses}"
+        raise ValueError(f"{complaint}, such as {forms}?chip={controller.name}")
     return controller
 
 

@@ -24,7 +24,7 @@ SIZES = [(128, 64), (128, 32), (96, 16), (72, 40), (64, 48), (64, 32), (48, 64)]
 
 def simulated(query=""):
     panel = open_panel(f"sim://ssd1306{query}")
-    return panel, panel.transport.bus.devices[0x3C]
+    return panel, panel.simulated
 
 
 def noise(seed, size=(128, 64)):
@@ -319,6 +319,7 @@ class Closing:
     def __init__(self, transport):
         self.transport, self.cost, self.closed = transport, transport.cost, False
         self.command, self.data, self.batch = transport.command, transport.data, transport.batch
+        self.reset = transport.reset
 
     def close(self):
         self.closed = True

@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any, Protocol
 
-from .wire import EREMOTEIO, Fault, Wire, os_error
+from .wire import EREMOTEIO, Fault, Wire, check_bus, os_error
 
 _MAX_MESSAGES = 42
 _MAX_MESSAGE_BYTES = 8192
@@ -104,7 +104,8 @@ class I2CBus(Wire):
         if not clock > 0:
             raise ValueError(f"clock: {clock!r} is not a rate in Hz above 0")
         self.devices: dict[int, Device] = dict(devices or {})
-        for address in self.devices:
+        for address, device in self.devices.items():
+            check_bus(device, "i2c")
             if not 0 <= address <= 0x7F:
                 raise ValueError(f"devices: {address:#x} is not a 7-bit address (0x00 to 0x7F)")
         for device in self.devices.values():

@@ -8,8 +8,7 @@ import time
 from collections.abc import Callable, Iterable, Sequence
 from typing import Any, ClassVar, Final, Protocol
 
-from .chip import Chip
-from .wire import Fault, Wire, os_error
+from .wire import Fault, Wire, check_bus, os_error
 
 _MOST_VALUES: Final = 4096
 _BUFSIZ: Final = 4096
@@ -107,8 +106,7 @@ class SPIBus(Wire):
         super().__init__(timer)
         self.chips: list[SPIDevice] = list(chips) if isinstance(chips, Sequence) else [chips]
         for chip in self.chips:
-            if isinstance(chip, Chip) and "spi" not in chip.buses:
-                raise ValueError(f"chips: {type(chip).__name__} cannot sit on SPI, but on {', '.join(chip.buses)}")
+            check_bus(chip, "spi")
         self.dc, self.reset, self.cs = dc, reset, cs
         self._high = {line: True for line in (reset, cs) if line is not None}  # until driven, modules pull them up
         self.spi = SpiDev(self, int(clock), bufsiz)
@@ -149,10 +147,10 @@ class SPIBus(Wire):
         --------
         >>> from paneldraw import simulator
         >>> bus = simulator.SPIBus(simulator.SSD1306())
-        >>> fault = bus.fail()
+        >>> fault = bus.fail(errno=5)
         >>> bus.spi.writebytes([0xAF])
         Traceback (most recent call last):
-        TimeoutError: [Errno 110] Connection timed out
+        OSError: [Errno 5] Input/output error
         """
         return self._await(Fault(errno, after, at_byte, times, then))
 

@@ -8,6 +8,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Final
 
+from .chip import Chip
+
 EREMOTEIO: Final = 121
 _MESSAGE_OF_EREMOTEIO: Final = "Remote I/O error"
 
@@ -88,3 +90,10 @@ class Wire:
 def os_error(code: int) -> OSError:
     """Make the error that Linux reports under a number, on any system."""
     return OSError(code, _MESSAGE_OF_EREMOTEIO if code == EREMOTEIO else os.strerror(code))
+
+
+def check_bus(chip: object, bus: str) -> None:
+    """Raise ValueError if a chip cannot sit on a kind of bus; what is no chip of ours may sit anywhere."""
+    if isinstance(chip, Chip) and bus not in chip.buses:
+        buses = " or ".join(map(str.upper, chip.buses))
+        raise ValueError(f"{type(chip).__name__} cannot sit on {bus.upper()}, but on {buses}")

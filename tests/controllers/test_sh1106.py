@@ -26,7 +26,7 @@ def test_every_glass_shows_the_picture(offset, mirror):
 
 def test_the_page_pointer_is_the_only_way():
     with open_panel("sim://sh1106") as panel:
-        chip = panel.transport.bus.devices[0x3C]
+        chip = panel.simulated
         picture = np.random.default_rng(2).integers(0, 2, (64, 128), np.uint8)
         panel.show(picture)
         picture[20, 77] ^= 1

@@ -38,7 +38,7 @@ def test_every_glass_shows_the_picture_in_both_ways_to_fill(size, mirror):
 @pytest.mark.parametrize("rotate", [0, 90, 180, 270])
 def test_a_panel_by_url_in_every_turn(rotate):
     with open_panel(f"sim://ssd1327?size=96x96&rotate={rotate}") as panel:
-        chip = panel.transport.bus.devices[0x3C]
+        chip = panel.simulated
         assert panel.framebuffer().depth == 4
         panel.show(greys((96, 96)))
         np.testing.assert_array_equal(chip.pixels, np.rot90(greys((96, 96)), -rotate // 90))
