@@ -33,6 +33,16 @@ def luma(bus: Any) -> Any:
     return device
 
 
+def luma_spi(spi: Any, gpio: Any) -> Any:
+    """luma.oled's device on objects with the interfaces of spidev and RPi.GPIO."""
+    from luma.core.interface import serial
+    from luma.oled.device import ssd1306
+
+    device = ssd1306(serial.spi(spi=spi, gpio=gpio), WIDTH, HEIGHT)
+    device.persist = True
+    return device
+
+
 class Wire:
     """An object with the interface of ``busio.I2C``; every write goes to one function."""
 

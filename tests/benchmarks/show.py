@@ -12,9 +12,10 @@ from peers import HEIGHT, WIDTH
 
 from paneldraw import Framebuffer, Panel
 from paneldraw.controllers import SSD1306
-from paneldraw.transports import I2CTransport
+from paneldraw.transports import I2CTransport, SPITransport
 
 LUMA = "luma.oled"
+LUMA_SPI = "luma.oled on SPI"
 ADAFRUIT = "Adafruit"
 DISPLAYIO = "displayio"
 
@@ -32,6 +33,12 @@ def row(
     return Row(name, 2, f"show({one}); show({other})", tuple(against))
 
 
+def spi_row(name: str, one: str, other: str, over_luma: float) -> Row:
+    """Show two pictures in turn on SPI."""
+    against = Against(LUMA_SPI, f"display({one}_image); display({other}_image)", over_luma)
+    return Row(name, 2, f"show_spi({one}); show_spi({other})", (against,))
+
+
 ROWS = [
     row("every pixel changed", "noise", "inverse", 20, displayio="dirty(); show(); dirty(); show()"),
     row("another picture", "lines", "circles", 10),
@@ -44,6 +51,8 @@ ROWS = [
         displayio="pixel(64, 32, 1); show(); pixel(64, 32, 0); show()",
     ),
     row("nothing changed", "lines", "lines", 20, displayio="show(); show()"),
+    spi_row("every pixel changed, on SPI", "noise", "inverse", 20),
+    spi_row("one pixel changed, on SPI", "lines", "lines_and_a_pixel", 20),
 ]
 
 
@@ -63,7 +72,10 @@ def pictures() -> dict[str, Framebuffer]:
 
 
 class Forgetful:
-    """A bus that takes every message, with as much of smbus2's interface as the drivers use."""
+    """A bus that takes every message, with as much of smbus2's, spidev's and RPi.GPIO's interfaces as drivers use."""
+
+    OUT = LOW = 0
+    HIGH = 1
 
     def i2c_rdwr(self, *messages: Any) -> None:
         """Take messages."""
@@ -71,19 +83,44 @@ class Forgetful:
     def write_i2c_block_data(self, address: int, register: int, data: Any) -> None:
         """Take a short command."""
 
+    def writebytes2(self, values: Any) -> None:
+        """Take any number of bytes."""
+
+    def writebytes(self, values: list[int]) -> None:
+        """Take up to 4096 bytes."""
+
+    def set(self, line: int, value: bool) -> None:
+        """Take a level; so do the two of RPi.GPIO's."""
+
+    output = setup = set
+
+    def open(self, bus: int, device: int) -> None:
+        """Nothing to open."""
+
     def close(self) -> None:
         """Nothing to close."""
 
 
 def names() -> Names:
     """The pictures, and the `show` of a panel."""
-    return {**pictures(), "show": Panel(SSD1306(WIDTH, HEIGHT), I2CTransport(Forgetful())).show}
+    bus = Forgetful()
+    show_spi = Panel(SSD1306(WIDTH, HEIGHT), SPITransport(spi=bus, pins=bus)).show
+    return {**pictures(), "show": Panel(SSD1306(WIDTH, HEIGHT), I2CTransport(bus)).show, "show_spi": show_spi}
+
+
+def images() -> Names:
+    """The pictures as Pillow's, which luma wants."""
+    return {f"{name}_image": fb.to_image() for name, fb in pictures().items()}
 
 
 def luma() -> Names:
-    """It wants pictures as Pillow's."""
-    shown = {f"{name}_image": fb.to_image() for name, fb in pictures().items()}
-    return {"display": peers.luma(Forgetful()).display, **shown}
+    """Its device on I2C."""
+    return {"display": peers.luma(Forgetful()).display, **images()}
+
+
+def luma_spi() -> Names:
+    """Its device on SPI."""
+    return {"display": peers.luma_spi(Forgetful(), Forgetful()).display, **images()}
 
 
 def linux_write() -> peers.Write:
@@ -120,4 +157,4 @@ def displayio() -> Names:
 
 def run(rounds: int) -> None:
     """Print the group's rows."""
-    Contest(names(), {LUMA: luma, ADAFRUIT: adafruit, DISPLAYIO: displayio}, rounds).run_all(ROWS)
+    Contest(names(), {LUMA: luma, LUMA_SPI: luma_spi, ADAFRUIT: adafruit, DISPLAYIO: displayio}, rounds).run_all(ROWS)
