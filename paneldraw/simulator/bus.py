@@ -109,8 +109,8 @@ class I2CBus(Wire):
             if not 0 <= address <= 0x7F:
                 raise ValueError(f"devices: {address:#x} is not a 7-bit address (0x00 to 0x7F)")
         for device in self.devices.values():
-            if "i2c" not in (busses := getattr(device, "busses", ("i2c",))):
-                raise ValueError(f"devices: an {type(device).__name__} sits on {' or '.join(busses)}, not on I2C")
+            if "i2c" not in (buses := getattr(device, "buses", ("i2c",))):
+                raise ValueError(f"devices: an {type(device).__name__} sits on {' or '.join(buses)}, not on I2C")
         super().__init__(timer)
         self.clock = clock
         self.transactions = 0

@@ -43,7 +43,7 @@ class Chip(ABC):
         All other state, by name.
     """
 
-    busses: ClassVar[tuple[str, ...]] = ("i2c", "spi")
+    buses: ClassVar[tuple[str, ...]] = ("i2c", "spi")
     """The buses that the chip can sit on."""
     max_level: int = 1
     """The level of a fully lit pixel."""

@@ -165,7 +165,7 @@ class SSD1322(GreyChip):
     [12, 3, 2, 1]
     """
 
-    busses = ("spi",)
+    buses = ("spi",)
     arguments_are_data = True
     columns, lines, column_bytes = 120, 128, 2
     modules: ClassVar = {(256, 64): Module(112)}
