@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 
 class PanelError(Exception):
     """Root of all that can go wrong between a script and the glass."""
@@ -17,9 +19,14 @@ class TransportError(PanelError, OSError):
     """
 
     transient: bool = False
+    more: Callable[[], str] | None = None
+    """Finds out what to do; asks the bus perhaps, so only once nothing more is tried."""
 
     def final(self) -> TransportError:
-        """Return the error for a script to hear, now that nothing more is tried. Transports may say more in it."""
+        """Return the error for a script to hear, with all that can be said of it."""
+        more, self.more = self.more, None
+        if more is not None:
+            self.strerror = f"{self.strerror}: {more()}"
         return self
 
 

@@ -148,17 +148,30 @@ def _i2c(parts: SplitResult) -> PanelURL:
         place, address = parts.netloc, parts.path.strip("/")
     else:  # i2c:///dev/i2c-1/0x3c
         place, _, address = parts.path.rpartition("/")
+    if ":" in address.partition("/")[0]:  # 1/0x70:3/0x3c
+        through, _, address = address.partition("/")
+        place = f"{place}/{through}"
     if not place or "/" in address:
         raise ValueError(f"url must have the form {_FORMS['i2c']}, not {parts.geturl()!r}")
+    place, mux = _multiplexer(place)
     return PanelURL(
         "i2c",
         _on("i2c", _controller(query.get("chip", _CHIP), query)),
         bus=int(place) if place.isdecimal() else place,
         address=_number(address, "address", "0x3c") if address else _ADDRESS,
         module=_module(query),
-        transport=_settings(query, {"max_message": "32"}) | _lines(query, *lines),
+        transport=mux | _settings(query, {"max_message": "32"}) | _lines(query, *lines),
         panel=_settings(query, _PANEL),
     )
+
+
+def _multiplexer(place: str) -> tuple[str, dict[str, Any]]:
+    """Take a bus apart from the multiplexer and its channel on it, as in ``1/0x70:3``."""
+    bus, _, through = place.rpartition("/")
+    address, colon, channel = through.partition(":")
+    if not colon:
+        return place, {}
+    return bus, {"mux": (_number(address, "mux", "0x70"), _number(channel, "channel", "3"))}
 
 
 def _spi(parts: SplitResult) -> PanelURL:

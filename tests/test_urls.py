@@ -129,3 +129,14 @@ def test_what_a_url_cannot_say(url, complaint):
 def test_a_url_is_a_str():
     with pytest.raises(TypeError, match="url must be a str, not int"):
         urls.parse(1)
+
+
+@pytest.mark.parametrize("bus", ["1", "/dev/i2c-7"])
+def test_a_channel_of_a_multiplexer(bus):
+    wanted = urls.parse(f"i2c://{bus}/0x70:3/0x3d?size=128x32")
+    assert (str(wanted.bus), wanted.address, wanted.transport) == (bus, 0x3D, {"mux": (0x70, 3)})
+
+
+def test_a_channel_that_is_no_number():
+    with pytest.raises(ValueError, match="channel must be a whole number, such as 3, not 'left'"):
+        urls.parse("i2c://1/0x70:left/0x3c")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from .bus import I2CBus
+from .bus import I2CBus, Multiplexer
 from .frames import Frame
 from .recorder import Look, contact_sheet, image, save
 from .sh110x import SH1106, SH1107
@@ -26,6 +26,7 @@ __all__ = [
     "Frame",
     "I2CBus",
     "Look",
+    "Multiplexer",
     "SPIBus",
     "TerminalView",
     "contact_sheet",

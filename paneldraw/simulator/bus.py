@@ -14,7 +14,8 @@ from .wire import EREMOTEIO, Fault, Wire, check_bus, os_error
 _MAX_MESSAGES = 42
 _MAX_MESSAGE_BYTES = 8192
 _MAX_BLOCK = 32
-_READ = 0x0001
+_READ, _STOP = 0x0001, 0x8000
+_MANGLING = 0x4  # I2C_FUNC_PROTOCOL_MANGLING: a message may end with a STOP
 # I2C_FUNC_I2C and what Linux emulates of SMBus on plain I2C adapters, less packet error checking.
 _FUNCS = 0x0EFF0001
 
@@ -40,6 +41,7 @@ class _Message:
     payload: bytes = b""
     length: int | None = None
     answer: bytes = b""
+    stop: bool = False
 
     @property
     def size(self) -> int:
@@ -48,6 +50,74 @@ class _Message:
 
 class _ShortTransferError(Exception):
     """The adapter stopped early and reports no error."""
+
+    count = 0
+
+
+class Multiplexer:
+    """A multiplexer of the TCA9548A's kind: an address of its own, and eight channels with devices behind them.
+
+    A write selects channels by the bits of its last byte; they are connected from the STOP on that follows.
+
+    Parameters
+    ----------
+    channels : mapping of int to mapping
+        Devices by their addresses, by the number of the channel, 0 to 7, that they are behind.
+
+    Attributes
+    ----------
+    channels : dict
+    selected : int
+        The connected channels, a bit each. Reset leaves none.
+
+    Examples
+    --------
+    >>> from paneldraw import Panel, simulator
+    >>> from paneldraw.controllers import SSD1306
+    >>> from paneldraw.transports import I2CTransport
+    >>> chips = [simulator.SSD1306(), simulator.SSD1306()]
+    >>> bus = simulator.I2CBus({0x70: simulator.Multiplexer({n: {0x3C: chip} for n, chip in enumerate(chips)})})
+    >>> panels = [Panel(SSD1306(), I2CTransport(bus, mux=(0x70, n))) for n in range(2)]
+    >>> report = panels[1].clear()
+    >>> [len(chip.frames) for chip in chips], chips[1].registers.on
+    ([0, 0], True)
+    """
+
+    def __init__(self, channels: Mapping[int, Mapping[int, Device]]) -> None:
+        for number, devices in channels.items():
+            if number not in range(8):
+                raise ValueError(f"channels: {number!r} is not a channel of 0 to 7")
+            for device in devices.values():
+                check_bus(device, "i2c")
+        self.channels = {number: dict(devices) for number, devices in channels.items()}
+        self.reset()
+
+    def reset(self) -> None:
+        """Pull the reset pin: no channel is connected."""
+        self.selected = self._next = 0
+
+    def write(self, payload: bytes) -> None:
+        """Take a write: the channels to connect."""
+        if payload:
+            self._next = payload[-1]
+
+    def read(self, length: int) -> bytes:
+        """Answer with the connected channels."""
+        return bytes((self.selected,)) * length
+
+    def settle(self, seconds: float, wire_bytes: int) -> None:
+        """Nothing is seen here."""
+
+    def stop(self) -> None:
+        """Connect what was selected before a STOP."""
+        self.selected = self._next
+
+    def find(self, address: int) -> Device | None:
+        """Return the device at an address behind the connected channels."""
+        for number, devices in self.channels.items():
+            if self.selected >> number & 1 and address in devices:
+                return devices[address]
+        return None
 
 
 class I2CBus(Wire):
@@ -108,9 +178,6 @@ class I2CBus(Wire):
             check_bus(device, "i2c")
             if not 0 <= address <= 0x7F:
                 raise ValueError(f"devices: {address:#x} is not a 7-bit address (0x00 to 0x7F)")
-        for device in self.devices.values():
-            if "i2c" not in (buses := getattr(device, "buses", ("i2c",))):
-                raise ValueError(f"devices: an {type(device).__name__} sits on {' or '.join(buses)}, not on I2C")
         super().__init__(timer)
         self.clock = clock
         self.transactions = 0
@@ -151,8 +218,13 @@ class I2CBus(Wire):
         """Refuse packet error checking, which this adapter does not offer."""
         raise OSError("SMBUS_PEC is not a feature")
 
-    def i2c_rdwr(self, *i2c_msgs: Any) -> None:
+    def i2c_rdwr(self, *i2c_msgs: Any) -> int:
         """Carry ``smbus2.i2c_msg`` messages, joined by repeated STARTs; read messages are filled in.
+
+        Returns
+        -------
+        int
+            How many messages went through, which the kernel tells and smbus2 forgets.
 
         Raises
         ------
@@ -166,17 +238,23 @@ class I2CBus(Wire):
         if not 1 <= len(i2c_msgs) <= _MAX_MESSAGES or any(m.len > _MAX_MESSAGE_BYTES for m in i2c_msgs):
             raise os_error(codes.EINVAL)
         parts = [
-            _Message(m.addr, length=m.len) if m.flags & _READ else _Message(m.addr, ctypes.string_at(m.buf, m.len))
+            _Message(
+                m.addr,
+                b"" if m.flags & _READ else ctypes.string_at(m.buf, m.len),
+                m.len if m.flags & _READ else None,
+                stop=bool(m.flags & _STOP and self.funcs & _MANGLING),
+            )
             for m in i2c_msgs
         ]
         try:
             self._transfer(parts)
-        except _ShortTransferError:
-            pass
+        except _ShortTransferError as short:
+            return short.count
         finally:
             for message, part in zip(i2c_msgs, parts, strict=True):
                 if part.answer:
                     ctypes.memmove(message.buf, part.answer, len(part.answer))
+        return len(parts)
 
     def write_quick(self, i2c_addr: int, force: bool | None = None) -> None:
         """Send the address alone: does anybody answer?"""
@@ -313,32 +391,49 @@ class I2CBus(Wire):
     def _transfer(self, parts: list[_Message]) -> None:
         with self._lock:
             self.transactions += 1
-            bytes_before, started = self.bytes, 0
-            touched: dict[int, int] = {}
+            bytes_before, started, stops = self.bytes, 0, 1
+            touched: dict[int, tuple[Device, int]] = {}
             try:
                 for part in parts:
                     started += 1
                     before = self.bytes
+                    device = self._at(part.address)
                     try:
-                        self._carry(part)
+                        self._carry(part, device)
                     finally:
-                        touched[part.address] = touched.get(part.address, 0) + self.bytes - before
+                        if device is not None:
+                            wire_bytes = touched.get(id(device), (device, 0))[1] + self.bytes - before
+                            touched[id(device)] = device, wire_bytes
+                    if part.stop:
+                        stops += 1
+                        self._stop()
+            except _ShortTransferError as short:
+                short.count = started - 1
+                raise
             finally:
-                now = self._elapse((9 * (self.bytes - bytes_before) + started + 1) / self.clock)
-                self._settle(now, touched)
+                self._stop()
+                now = self._elapse((9 * (self.bytes - bytes_before) + started + stops) / self.clock)
+                for device, wire_bytes in touched.values():
+                    device.settle(now, wire_bytes)
 
-    def _settle(self, now: float, touched: dict[int, int]) -> None:
-        for address, wire_bytes in touched.items():
-            device = self.devices.get(address)
-            if device is not None:
-                device.settle(now, wire_bytes)
+    def _at(self, address: int) -> Device | None:
+        """Who answers at an address, behind multiplexers too."""
+        direct = self.devices.get(address)
+        if direct is not None:
+            return direct
+        behind = (device.find(address) for device in self.devices.values() if isinstance(device, Multiplexer))
+        return next((device for device in behind if device is not None), None)
 
-    def _carry(self, part: _Message) -> None:
+    def _stop(self) -> None:
+        for device in self.devices.values():
+            if isinstance(device, Multiplexer):
+                device.stop()
+
+    def _carry(self, part: _Message, device: Device | None) -> None:
         """Put one message on the wire, as far as chip and faults let it."""
         self.messages += 1
         self.bytes += 1
         fault = self._due(part.address)
-        device = self.devices.get(part.address)
         if device is None or (fault and fault.at_byte is None):
             self._raise(fault)
             raise os_error(EREMOTEIO)

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import contextlib
 import ctypes
 import errno
 import glob
 import os
+import threading
+import weakref
+from collections.abc import Callable, Iterator
 from types import ModuleType
-from typing import Any, Final
+from typing import Any, ClassVar, Final
 
 import numpy as np
 import numpy.typing as npt
@@ -28,7 +32,16 @@ BYTES_A_MESSAGE: Final = 8192
 PANEL_ADDRESSES: Final = (0x3C, 0x3D)
 _NO_ACKNOWLEDGE = (errno.EREMOTEIO, errno.ENXIO)  # which of the two depends on the adapter's driver
 _BUSY = (errno.EAGAIN, errno.EBUSY)
+_PASSING = (errno.EREMOTEIO, errno.ENXIO, errno.EIO, errno.ETIME)
+"""What a panel that answered before may well get over."""
 _FRAMING = 2  # address byte and control byte
+_LENGTHS: Final = (4096, 2048, 1024, 512, 256, 255, 128, 64, 63, 32, 31, 16, 8, 2)
+"""Longest messages, one of which an adapter takes that does not take any."""
+_BLOCK: Final = 33
+"""The same by SMBus alone."""
+_I2C, _MANGLING = 0x1, 0x4  # bits of I2C_FUNCS
+_STOP: Final = 0x8000
+"""Flag of a message that ends with a STOP."""
 
 
 class I2CTransport:
@@ -44,6 +57,8 @@ class I2CTransport:
     max_message : int, optional
         Longest message in bytes that the bus adapter takes, control byte included, 2 to 8192. Default: 8192, the
         kernel's own limit.
+    mux : (int, int), optional
+        Address and channel of a multiplexer, such as a TCA9548A, behind which the panel is. Default: none.
     reset : int or str, optional
         GPIO line of the module's reset pin, which is pulsed here and by `reset`: a number on the header's chip (BCM's,
         not the pin's) or the line's name. Default: none, as most modules reset themselves; 2.42-inch ones do not.
@@ -73,20 +88,15 @@ class I2CTransport:
         address: int = 0x3C,
         *,
         max_message: int = BYTES_A_MESSAGE,
+        mux: tuple[int, int] | None = None,
         reset: Line | None = None,
         pins: Pins | None = None,
         gpiochip: int | str | None = None,
     ) -> None:
-        if isinstance(address, bool) or not isinstance(address, int):
-            raise TypeError(f"address must be an int, not {address!r}")
-        if not 0x08 <= address <= 0x77:
-            raise ValueError(f"address must be 0x08 to 0x77, usually 0x3C or 0x3D, not {address:#x}")
+        _check_address("address", address)
         if not 2 <= max_message <= BYTES_A_MESSAGE:
             raise ValueError(f"max_message must be 2 to {BYTES_A_MESSAGE}, not {max_message}")
-        chained = _FRAMING if max_message == BYTES_A_MESSAGE else None  # a chained message cannot be split
-        self.cost = Cost(_FRAMING, _FRAMING, chained, max_message - 1)
         self.address = address
-        self.max_message = max_message
         self._smbus2 = _smbus2()
         self._owned = isinstance(bus, (int, str, os.PathLike)) and not isinstance(bus, bool)
         if not self._owned and not callable(getattr(bus, "i2c_rdwr", None)):
@@ -101,6 +111,10 @@ class I2CTransport:
             self._close_bus()
             raise
         self._answered = False
+        self._mux = None if mux is None else _Mux(*mux, self.bus, self._smbus2.i2c_msg)
+        functions = int(getattr(self.bus, "funcs", 0))
+        self._blocks = functions != 0 and not functions & _I2C
+        self._limit(min(max_message, _BLOCK) if self._blocks else max_message)
         self._messages = _Messages(self._smbus2.i2c_msg, address)
 
     def command(self, payload: bytes) -> int:
@@ -113,14 +127,27 @@ class I2CTransport:
 
     def batch(self, plan: Plan) -> int:
         """Send a plan in as few calls as the limits allow; return the bytes on the wire."""
-        if plan.buffer.size > self.max_message and plan.longest > self.max_message:
+        if self.max_message < BYTES_A_MESSAGE or plan.longest > BYTES_A_MESSAGE:
             return sum(self._write(kind, payload) for kind, payload in plan)
         messages = self._messages.of(plan)
-        # An adapter that takes short messages only takes few of them a call, and nobody says how few.
-        number = MESSAGES_A_CALL if self.max_message == BYTES_A_MESSAGE else 1
-        for first in range(0, plan.count, number):
-            self._send(messages[first : first + number])
-        return plan.cost
+        wire = plan.cost
+        try:
+            for first in range(0, plan.count, MESSAGES_A_CALL):
+                wire += self._send(messages[first : first + MESSAGES_A_CALL])
+        except _TooMuchError:
+            if plan.count == 1:
+                self._shorten(plan.longest)
+            return sum(self._write(kind, payload) for kind, payload in plan)
+        return wire
+
+    def read_status(self) -> int:
+        """Read the panel's status byte."""
+        if self._blocks:
+            with self._translating():
+                return int(self.bus.read_byte(self.address))
+        message = self._smbus2.i2c_msg.read(self.address, 1)
+        self._send([message])
+        return int(bytes(message)[0])
 
     def reset(self) -> bool:
         """Pulse the reset line unless nothing was sent since the last time; return whether there is one."""
@@ -136,28 +163,83 @@ class I2CTransport:
             self.bus.close()
             self.bus = None
 
-    def _write(self, kind: int, payload: bytes | memoryview) -> int:
-        room = self.max_message - 1
-        if len(payload) > room and kind == CHAINED:
-            raise ValueError(f"a chained message of {len(payload)} bytes cannot be split to {room}")
-        wire = 0
-        for start in range(0, len(payload), room):
-            piece = bytes((kind,)) + payload[start : start + room]
-            self._send([self._smbus2.i2c_msg.write(self.address, piece)])
-            wire += len(piece) + 1
-        return wire
+    def _limit(self, max_message: int) -> None:
+        """Take messages of so many bytes for the longest."""
+        self.max_message = max_message
+        chained = _FRAMING if max_message == BYTES_A_MESSAGE else None  # a chained message cannot be split
+        self.cost = Cost(_FRAMING, _FRAMING, chained, max_message - 1)
 
-    def _send(self, messages: list[Any]) -> None:
+    def _shorten(self, length: int) -> None:
+        """Know that a message of so many bytes is more than the adapter takes."""
+        shorter = [each for each in _LENGTHS if each < min(length, self.max_message)]
+        if shorter:
+            self._limit(shorter[0])
+        elif not self._blocks and callable(getattr(self.bus, "write_i2c_block_data", None)):
+            self._blocks = True
+            self._limit(_BLOCK)
+        else:
+            neither = f"the adapter of {self.name} takes neither I2C messages nor SMBus blocks"
+            raise TransportError(errno.EOPNOTSUPP, neither)
+
+    def _write(self, kind: int, payload: bytes | memoryview) -> int:
+        """Send a message, in pieces where it is longer than the adapter takes; return the bytes on the wire."""
+        if len(payload) < self.max_message:
+            try:
+                return self._piece(kind, payload)
+            except _TooMuchError:
+                self._shorten(len(payload) + 1)
+                return self._write(kind, payload)
+        if kind == CHAINED:
+            return self._unchained(payload)
+        if kind not in (COMMAND, DATA):
+            limit = f"{self.name} takes messages of {self.max_message} bytes at most"
+            raise transient(TransportError(errno.EOPNOTSUPP, limit))  # next time the planner knows
+        done = self.max_message - 1
+        return self._write(kind, payload[:done]) + self._write(kind, payload[done:])
+
+    def _unchained(self, payload: bytes | memoryview) -> int:
+        """Send a chained message as one of commands and one of data."""
+        end = next(at for at in range(1, len(payload), 2) if payload[at] == DATA)
+        return self._write(COMMAND, bytes(payload[:end:2])) + self._write(DATA, payload[end + 1 :])
+
+    def _piece(self, kind: int, payload: bytes | memoryview) -> int:
+        """Send one message; return the bytes on the wire."""
+        if self._blocks:
+            with self._translating():
+                self.bus.write_i2c_block_data(self.address, kind, list(payload))
+            self._answered = True
+            return _FRAMING + len(payload)
+        message = self._smbus2.i2c_msg.write(self.address, bytes((kind,)) + payload)
+        return self._send([message]) + _FRAMING + len(payload)
+
+    def _send(self, messages: list[Any]) -> int:
+        """Send messages in one call; return the bytes that this cost beside them."""
+        self._lines.fresh = False
+        with self._translating():
+            if self._mux is None:
+                extra, done = 0, self._rdwr(*messages)
+            else:
+                extra, done = self._mux.through(self._rdwr, messages)
+        if done is not None and done < len(messages):
+            short = TransportError(errno.EIO, f"only {done} of {len(messages)} messages reached {self._where()}")
+            raise transient(short) if self._answered else short
+        self._answered = True
+        return extra
+
+    @contextlib.contextmanager
+    def _translating(self) -> Iterator[None]:
         if self.bus is None:
             raise TransportError(errno.EBADF, f"the transport to {self.name} is closed")
-        self._lines.fresh = False
         try:
-            done = self._rdwr(*messages)
+            yield
         except OSError as error:
+            if error.errno == errno.EOPNOTSUPP and not self._blocks:
+                raise _TooMuchError from error
             raise self._translated(error) from error
-        if done is not None and done < len(messages):
-            raise TransportError(errno.EIO, f"only {done} of {len(messages)} messages reached {self._where()}")
-        self._answered = True
+        except TypeError as error:
+            if getattr(self.bus, "fd", -1) is not None:
+                raise
+            raise TransportError(errno.EBADF, f"bus {self.name} is closed: open it, or give its number") from error
 
     def _rdwr(self, *messages: Any) -> int | None:
         """Transfer messages; return how many went through, if that is known."""
@@ -172,29 +254,36 @@ class I2CTransport:
         return f"0x{self.address:02X} on {self.name}"
 
     def _open(self, path: str) -> Any:
+        bus = self._smbus2.SMBus()
         try:
-            return self._smbus2.SMBus(path)
+            bus.open(path)
         except OSError as error:
+            bus.close()
             raise _not_opened(error, path) from error
+        return bus
 
     def _translated(self, error: OSError) -> TransportError:
         where = self._where()
         code = error.errno
         if code in _NO_ACKNOWLEDGE:
-            kind = PanelDisconnectedError if self._answered else PanelNotFoundError
-            return kind(code, f"nobody answers at {where}: {self._advice()}")
+            if not self._answered:
+                return PanelNotFoundError(code, f"nobody answers at {where}: {self._advice()}")
+            gone = PanelDisconnectedError(code, f"nobody answers at {where}")
+            gone.more = self._advice  # asks another address, which may be another's device: not at every glitch
+            return transient(gone)
         if code in _BUSY:
             return transient(PanelBusyError(code, f"{self.name} is busy: is another master or program using it?"))
-        if code == errno.ETIMEDOUT:
+        if code == errno.ETIMEDOUT or code == errno.ETIME:
             advice = "check SDA, SCL and the pull-up resistors, or try a slower clock"
-            return transient(PanelTimeoutError(code, f"no end of a transfer to {where}: {advice}"))
+            late = PanelTimeoutError(code, f"no end of a transfer to {where}: {advice}")
+            return late if code == errno.ETIME and not self._answered else transient(late)
         if code == errno.EOPNOTSUPP:
-            advice = f"give I2CTransport a max_message below {self.max_message}"
-            return TransportError(code, f"cannot write to {where}: the adapter takes no messages this long: {advice}")
+            return TransportError(code, f"cannot write to {where}: the adapter does not take such messages")
         if code == errno.ENODEV:
             return PanelDisconnectedError(code, f"{self.name} is gone: plug the adapter in and open a new transport")
         reason = error.strerror or error
-        return TransportError(code, f"cannot write to {where}: {reason}; check the panel's wiring and power")
+        failed = TransportError(code, f"cannot write to {where}: {reason}; check the panel's wiring and power")
+        return transient(failed) if code in _PASSING and self._answered else failed
 
     def _advice(self) -> str:
         others = [other for other in PANEL_ADDRESSES if other != self.address and self._answers(other)]
@@ -208,6 +297,46 @@ class I2CTransport:
         except Exception:  # a probe for an error message must not replace the error
             return False
         return True
+
+
+class _TooMuchError(Exception):
+    """The adapter does not take such messages, so many, or so long."""
+
+
+class _Mux:
+    """One channel of a multiplexer, which connects it with the STOP behind the message that selects it.
+
+    Where the adapter can put a STOP into a call, that message goes out in the call of the panel's messages; elsewhere
+    in a call before, and no other panel of this process comes in between.
+    """
+
+    _locks: ClassVar[weakref.WeakValueDictionary[str, _Lock]] = weakref.WeakValueDictionary()
+
+    def __init__(self, address: int, channel: int, bus: Any, message: Any) -> None:
+        _check_address("mux", address)
+        if not 0 <= channel <= 7:
+            raise ValueError(f"mux must be an address and a channel of 0 to 7, not {channel!r}")
+        self._select = message.write(address, (1 << channel,))
+        self._together = bool(getattr(bus, "funcs", 0) & _MANGLING)
+        if self._together:
+            self._select.flags |= _STOP
+        self._lock = self._locks.setdefault(str(getattr(bus, "name", "") or id(bus)), _Lock())
+
+    def through(self, rdwr: Callable[..., int | None], messages: list[Any]) -> tuple[int, int | None]:
+        """Send messages through the channel; return the bytes of its selection, and how many messages went through."""
+        if self._together and len(messages) < MESSAGES_A_CALL:
+            done = rdwr(self._select, *messages)
+            return _FRAMING, None if done is None else done - 1
+        with self._lock.held:
+            rdwr(self._select)
+            return _FRAMING, rdwr(*messages)
+
+
+class _Lock:
+    """A lock that can be kept in a dictionary as long as somebody needs it."""
+
+    def __init__(self) -> None:
+        self.held = threading.Lock()
 
 
 class _Messages:
@@ -256,11 +385,29 @@ def _smbus2() -> ModuleType:
 
 
 def _path(bus: Any) -> str:
-    return f"/dev/i2c-{bus}" if isinstance(bus, int) else os.fspath(bus)
+    return f"/dev/i2c-{bus}" if isinstance(bus, int) or str(bus).isdecimal() else os.fspath(bus)
+
+
+def _check_address(name: str, address: int) -> None:
+    if isinstance(address, bool) or not isinstance(address, int):
+        raise TypeError(f"{name} must be an int, not {address!r}")
+    if 0x08 <= address <= 0x77:
+        return
+    advice = ""
+    if address in [2 * each for each in PANEL_ADDRESSES]:
+        advice = f", which is 0x{address // 2:02X} with the bit for writing: write 0x{address // 2:02X}"
+    elif 0x77 < address <= 0x3FF:
+        advice = ": panels have addresses of 7 bits, not of 10"
+    raise ValueError(f"{name} must be 0x08 to 0x77, of a panel usually 0x3C or 0x3D, not {address:#x}{advice}")
 
 
 def _not_opened(error: OSError, path: str) -> TransportError:
-    if error.errno == errno.EACCES or error.errno == errno.EPERM:
+    if error.errno == errno.EPERM:
+        advice = f"in a container, start it with --device {path}"
+        return PanelPermissionError(error.errno, f"no permission to open {path}: {advice}, else {join_group('i2c')}")
+    if error.errno in (errno.ENOTTY, errno.EINVAL, errno.EISDIR):
+        return PanelNotFoundError(error.errno, f"{path} is no I2C bus: give its number, such as 1, or its /dev/i2c-N")
+    if error.errno == errno.EACCES:
         return PanelPermissionError(error.errno, f"no permission to open {path}: {join_group('i2c')}")
     if error.errno in (errno.ENOENT, errno.ENODEV, errno.ENXIO):
         there = ", ".join(sorted(glob.glob("/dev/i2c-*")))

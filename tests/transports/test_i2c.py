@@ -5,6 +5,7 @@ from __future__ import annotations
 import ctypes
 import errno
 import os
+import threading
 
 import numpy as np
 import pytest
@@ -39,6 +40,8 @@ class Kernel:
         self.opened = []
         self.calls = []
         self.stop_after = None
+        self.longest, self.most = 8192, 42
+        self.refused = 0
 
     def open(self, path, flags):
         if self.open_error:
@@ -53,10 +56,15 @@ class Kernel:
         self.opened.pop()
 
     def ioctl(self, descriptor, request, argument):
+        if descriptor is None:
+            raise TypeError("argument must be an int, or have a fileno() method.")
         assert descriptor == DESCRIPTOR
         if request != smbus2.smbus2.I2C_RDWR:
             return 0
         messages = [argument.msgs[i] for i in range(argument.nmsgs)]
+        if len(messages) > self.most or any(m.len > self.longest for m in messages):
+            self.refused += 1
+            raise OSError(errno.EOPNOTSUPP, "Operation not supported")
         self.calls.append([(m.flags, ctypes.string_at(m.buf, m.len)) for m in messages])
         if self.stop_after is not None:
             messages = messages[: self.stop_after]
@@ -189,7 +197,6 @@ def test_a_panel_that_answered_and_is_gone(kernel):
         (errno.EAGAIN, PanelBusyError, True, "master"),
         (errno.EBUSY, PanelBusyError, True, "master"),
         (errno.ETIMEDOUT, PanelTimeoutError, True, "pull-up"),
-        (errno.EOPNOTSUPP, TransportError, False, "max_message"),
         (errno.ENODEV, PanelDisconnectedError, False, "adapter"),
         (errno.EIO, TransportError, False, "wiring"),
     ],
@@ -216,7 +223,7 @@ def test_a_transfer_that_stops_early_is_noticed(kernel):
     ("code", "kind", "advice"),
     [
         (errno.EACCES, PanelPermissionError, "group i2c"),
-        (errno.EPERM, PanelPermissionError, "group i2c"),
+        (errno.EPERM, PanelPermissionError, "--device /dev/i2c-3"),
         (errno.ENOENT, PanelNotFoundError, "enable I2C"),
         (errno.ENXIO, PanelNotFoundError, "enable I2C"),
         (errno.EMFILE, TransportError, "Too many open files"),
@@ -266,3 +273,202 @@ def test_messages_are_smbus2s_own(chip):
 
     I2CTransport(Bus()).batch(plan_of((COMMAND, b"\xb0"), (DATA, b"\x01\x02")))
     assert seen == [(i2c_msg, b"\x00\xb0"), (i2c_msg, b"\x40\x01\x02")]
+
+
+# -- Faults that pass, and who is asked when
+
+
+@pytest.mark.parametrize("code", [errno.EREMOTEIO, errno.ENXIO, errno.EIO, errno.ETIME])
+@pytest.mark.parametrize("times", [1, 2, 3])
+def test_a_panel_that_answered_is_tried_again(kernel, chip, code, times):
+    picture = np.random.default_rng(code).integers(0, 2, (64, 128), np.uint8)
+    with Panel(SSD1306(), I2CTransport(1)) as panel:
+        panel.show(picture)
+        picture[5, 5] ^= 1
+        kernel.bus.fail(code, times=times)
+        panel.show(picture)
+        np.testing.assert_array_equal(chip.pixels, picture)
+        assert panel.stats.retries == times
+        assert panel.stats.faults == {errno.errorcode[code]: times}
+
+
+def test_a_lone_missing_acknowledge_asks_no_other_address(kernel, chip):
+    asked = []
+    kernel.bus.devices[0x3D] = Listener(asked)
+    with Panel(SSD1306(), I2CTransport(1)) as panel:
+        panel.show(np.ones((64, 128), np.uint8))
+        kernel.bus.fail(errno.EREMOTEIO)
+        panel.clear()
+        assert asked == []
+        kernel.bus.devices.pop(0x3C)
+        with pytest.raises(PanelDisconnectedError, match="nobody answers at 0x3C on /dev/i2c-1: found 0x3D instead"):
+            panel.show(np.ones((64, 128), np.uint8))
+        assert asked == ["read"]
+        kernel.bus.devices[0x3C] = chip
+
+
+class Listener:
+    """Somebody else's device."""
+
+    def __init__(self, asked):
+        self.asked = asked
+
+    def read(self, length):
+        self.asked.append("read")
+        return bytes(length)
+
+    def write(self, payload):
+        self.asked.append("write")
+
+    def settle(self, seconds, wire_bytes):
+        pass
+
+
+# -- Adapters
+
+
+@pytest.mark.parametrize("longest", [4096, 1000, 255, 64, 32, 20])
+def test_a_length_limit_is_measured_once(kernel, chip, longest):
+    kernel.longest = longest
+    random = np.random.default_rng(longest)
+    with Panel(SSD1306(chained_control=True), I2CTransport(1)) as panel:
+        panel.show(np.ones((64, 128), np.uint8))
+        panel.clear()
+        refused = kernel.refused
+        assert refused <= 14
+        for _ in range(3):
+            picture = random.integers(0, 2, (64, 128), np.uint8)
+            panel.show(picture)
+            np.testing.assert_array_equal(chip.pixels, picture)
+    assert kernel.refused == refused
+    assert chip.violations == []
+
+
+def test_an_adapter_of_few_messages_a_call(kernel, chip):
+    kernel.most = 1
+    with Panel(SSD1306(), I2CTransport(1)) as panel:
+        for seed in range(3):
+            picture = np.random.default_rng(seed).integers(0, 2, (64, 128), np.uint8)
+            report = panel.show(picture)
+            np.testing.assert_array_equal(chip.pixels, picture)
+    assert report.wire_bytes > 1000
+
+
+@pytest.mark.parametrize("told", [True, False])
+def test_an_adapter_of_smbus_alone_is_driven_by_blocks(chip, told):
+    class SMBusOnly(simulator.I2CBus):
+        def i2c_rdwr(self, *messages):
+            raise OSError(errno.EOPNOTSUPP, "Operation not supported")
+
+    bus = SMBusOnly({0x3C: chip})
+    if told:
+        bus.funcs &= ~1
+    transport = I2CTransport(bus)
+    with Panel(SSD1306(), transport) as panel:
+        for seed in range(3):
+            picture = np.random.default_rng(seed).integers(0, 2, (64, 128), np.uint8)
+            before = bus.bytes
+            report = panel.show(picture)
+            np.testing.assert_array_equal(chip.pixels, picture)
+        assert report.wire_bytes == bus.bytes - before
+        assert transport.max_message == 33
+    assert chip.violations == []
+
+
+def test_what_takes_nothing_says_so():
+    class Nothing:
+        def i2c_rdwr(self, *messages):
+            raise OSError(errno.EOPNOTSUPP, "Operation not supported")
+
+    with pytest.raises(TransportError, match="takes neither I2C messages nor SMBus blocks"):
+        I2CTransport(Nothing()).command(b"\xaf")
+
+
+# -- Multiplexers
+
+
+@pytest.mark.parametrize("together", [True, False])
+def test_eight_panels_of_one_address_behind_a_multiplexer(together):
+    chips = [simulator.SSD1306() for _ in range(8)]
+    bus = simulator.I2CBus({0x70: simulator.Multiplexer({n: {0x3C: chip} for n, chip in enumerate(chips)})})
+    if together:
+        bus.funcs |= 0x4
+    panels = [Panel(SSD1306(), I2CTransport(bus, mux=(0x70, channel))) for channel in range(8)]
+
+    def animate(number):
+        random = np.random.default_rng(number)
+        for _ in range(20):
+            panels[number].show(random.integers(0, 2, (64, 128), np.uint8))
+
+    threads = [threading.Thread(target=animate, args=(number,)) for number in range(8)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    for number, chip in enumerate(chips):
+        random = np.random.default_rng(number)
+        pictures = [random.integers(0, 2, (64, 128), np.uint8) for _ in range(20)]
+        np.testing.assert_array_equal(chip.pixels, pictures[-1])
+        assert len(chip.frames) == 20
+    before = bus.bytes, bus.transactions
+    report = panels[3].clear()
+    assert report.wire_bytes == bus.bytes - before[0]
+    assert bus.transactions - before[1] == (1 if together else 2)
+
+
+def test_a_multiplexer_that_cannot_be():
+    bus = simulator.I2CBus()
+    with pytest.raises(ValueError, match="channel of 0 to 7, not 8"):
+        I2CTransport(bus, mux=(0x70, 8))
+    with pytest.raises(ValueError, match="mux must be 0x08 to 0x77"):
+        I2CTransport(bus, mux=(0x80, 1))
+
+
+# -- What people type
+
+
+@pytest.mark.parametrize(
+    ("address", "advice"),
+    [(0x78, "write 0x3C"), (0x7A, "write 0x3D"), (0x13C, "7 bits, not of 10"), (0x07, "usually 0x3C or 0x3D")],
+)
+def test_an_address_that_is_none_says_what_to_write(address, advice):
+    with pytest.raises(ValueError, match=advice):
+        I2CTransport(simulator.I2CBus(), address)
+
+
+def test_a_bus_number_as_text(kernel):
+    I2CTransport("1")
+    assert kernel.opened == ["/dev/i2c-1"]
+
+
+def test_a_bus_that_the_caller_closed(kernel):
+    bus = smbus2.SMBus(1)
+    transport = I2CTransport(bus)
+    transport.command(b"\xae")
+    bus.close()
+    with pytest.raises(TransportError, match="bus SMBus is closed: open it, or give its number"):
+        transport.command(b"\xaf")
+
+
+@pytest.mark.parametrize("code", [errno.ENOTTY, errno.EINVAL])
+def test_a_path_that_is_no_bus_is_closed_again(kernel, monkeypatch, code):
+    def refuse(descriptor, request, argument):
+        raise OSError(code, os.strerror(code))
+
+    monkeypatch.setattr(smbus2.smbus2, "ioctl", refuse)
+    for _ in range(3):
+        with pytest.raises(PanelNotFoundError, match="/dev/i2c-77 is no I2C bus"):
+            I2CTransport("/dev/i2c-77")
+    assert kernel.opened == []
+
+
+def test_a_panel_that_cannot_be_opened_closes_its_transport(kernel):
+    kernel.bus.devices.clear()
+    for _ in range(3):
+        with pytest.raises(PanelNotFoundError):
+            Panel(SSD1306(), I2CTransport(1))
+        with pytest.raises(ValueError, match="rotate"):
+            Panel(SSD1306(), I2CTransport(1), rotate=45)
+        with pytest.raises(ValueError, match="on_close"):
+            Panel(SSD1306(), I2CTransport(1), on_close="burn")
+    assert kernel.opened == []
