@@ -54,7 +54,9 @@ def _end(number: int, frame: FrameType | None) -> None:
     signal.signal(number, signal.SIG_DFL)
 
     def finish() -> None:
-        _close_all()
+        for panel in list(_left):
+            with contextlib.suppress(Exception):
+                panel._end() if panel._inside() else panel.close()
         os.kill(os.getpid(), number)
 
     for panel in list(_left):

@@ -60,7 +60,7 @@ class Report(NamedTuple):
     @property
     def unchanged(self) -> bool:
         """Whether the panel already showed this picture, so that nothing was sent."""
-        return self.messages == 0 and not self.queued
+        return self.changed_bytes == 0 and not self.queued
 
 
 class Sent(NamedTuple):
@@ -92,7 +92,7 @@ class Stats:
     def add(self, report: Report) -> None:
         """Count one more show."""
         self.frames += 1
-        self.unchanged += report.messages == 0
+        self.unchanged += report.unchanged
         self.wire_bytes += report.wire_bytes
         self.messages += report.messages
         self.changed_bytes += report.changed_bytes
@@ -166,6 +166,7 @@ class Panel:
             _check_on_close(on_close)
             with self._lock:
                 self._do(self._restore)
+                self._asked = Sent(0, 0)
         except BaseException:
             self._closed = True
             transport.close()
@@ -205,6 +206,7 @@ class Panel:
         self._shown = False
         self._watched = False  # whether the chip answers its status right
         self._looked = self._started = 0.0
+        self._asked = Sent(0, 0)  # what reads cost that no report has counted
         self._own: Framebuffer | None = None
 
     @property
@@ -455,7 +457,7 @@ class Panel:
         if self._closed or self._foreign:
             self._closed = True
             return
-        if self._postponed(self.close):
+        if self._postponed(self._end):
             return
         sender = self._sender
         if sender is not None:
@@ -463,13 +465,18 @@ class Panel:
                 sender.flush(2.0)
             sender.stop()
         with self._lock:
-            if self._closed:
-                return
-            try:
-                self._do(self._leave)
-            finally:
-                self._closed = True
-                self.transport.close()
+            self._end()
+
+    def _end(self) -> None:
+        if self._closed:
+            return
+        if self._sender is not None:
+            self._sender.stop(0.0)
+        try:
+            self._do(self._leave)
+        finally:
+            self._closed = True
+            self.transport.close()
 
     def __del__(self) -> None:
         if getattr(self, "_on_close", "keep") != "keep" and not self._closed:
@@ -543,10 +550,14 @@ class Panel:
 
     def _postponed(self, operation: Callable[[], object]) -> bool:
         """Put an operation off if it comes in the middle of this thread's own call, as from a signal handler."""
-        inside: bool = self._lock._is_owned()  # type: ignore[attr-defined]
+        inside = self._inside()
         if inside:
             self._later.append(operation)
         return inside
+
+    def _inside(self) -> bool:
+        """Whether this thread is in the middle of a call."""
+        return bool(self._lock._is_owned())  # type: ignore[attr-defined]
 
     def _hand_over(self, pixels: Levels, max_level: int) -> Report:
         if self._sender is None:
@@ -557,7 +568,7 @@ class Panel:
     def _show(self, pixels: Levels, max_level: int, force: bool = False) -> Report:
         """Show checked levels."""
         started = time.perf_counter()
-        if self._lock._is_owned():  # type: ignore[attr-defined]
+        if self._inside():
             copy = pixels.copy()
             self._later.append(lambda: self._show_now(copy, max_level, force, time.perf_counter()))
             return Report(0, 0, 0, 0.0, queued=True)
@@ -669,7 +680,8 @@ class Panel:
             self._lit = True
             self._watched = self._watched and self._status() == 0
         self._ready = True
-        return wire, messages + plan.count, plan.changed
+        asked, self._asked = self._asked, Sent(0, 0)
+        return wire + asked.wire_bytes, messages + plan.count + asked.messages, plan.changed
 
     def _command(self, *commands: bytes) -> Sent:
         """Send commands, each with its arguments."""
@@ -690,7 +702,9 @@ class Panel:
         if read is None or not self.controller.status_off:
             return None
         with contextlib.suppress(TransportError):
-            return int(read()) & self.controller.status_off
+            status, wire = read()
+            self._asked = Sent(self._asked.wire_bytes + wire, self._asked.messages + 1)
+            return int(status) & self.controller.status_off
         return None
 
     def _alive(self, now: float) -> bool:

@@ -140,14 +140,14 @@ class I2CTransport:
             return sum(self._write(kind, payload) for kind, payload in plan)
         return wire
 
-    def read_status(self) -> int:
-        """Read the panel's status byte."""
+    def read_status(self) -> tuple[int, int]:
+        """Read the panel's status byte; return it, and the bytes on the wire."""
         if self._blocks:
             with self._translating():
-                return int(self.bus.read_byte(self.address))
+                return int(self.bus.read_byte(self.address)), _FRAMING
         message = self._smbus2.i2c_msg.read(self.address, 1)
-        self._send([message])
-        return int(bytes(message)[0])
+        extra = self._send([message])
+        return int(bytes(message)[0]), _FRAMING + extra
 
     def reset(self) -> bool:
         """Pulse the reset line unless nothing was sent since the last time; return whether there is one."""
