@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from paneldraw import Panel, open_panel, simulator
-from paneldraw.controllers import SH1106, SSD1306
+from paneldraw.controllers import SH1106, SSD1306, SSD1309, SSD1322, SSD1327
 from paneldraw.errors import (
     PanelBusyError,
     PanelDisconnectedError,
@@ -98,11 +98,13 @@ def test_lines_are_set_only_where_they_change():
     assert levels[2:] == [("D/C", False), ("D/C", True), ("D/C", False)]
 
 
-@pytest.mark.parametrize("controller", [SSD1306(), SH1106()], ids=lambda controller: controller.name)
-def test_a_picture_arrives_and_its_bytes_are_counted(controller):
+@pytest.mark.parametrize("make", [SSD1306, SSD1309, SH1106, SSD1327, SSD1322], ids=lambda chip: chip.name)
+def test_a_picture_arrives_and_its_bytes_are_counted(make):
+    controller = make()
     chip = getattr(simulator, controller.name.upper())()
     transport, bus = wired(chip)
-    picture = noise()
+    size = controller.height, controller.width
+    picture = np.random.default_rng(4).integers(0, chip.max_level + 1, size, np.uint8)
     with Panel(controller, transport) as panel:
         for x in (100, 101, 3):
             before = bus.bytes
@@ -113,12 +115,13 @@ def test_a_picture_arrives_and_its_bytes_are_counted(controller):
     assert chip.violations == []
 
 
-def test_one_pixel_is_its_byte_and_its_address():
-    panel = Panel(SH1106(), wired(simulator.SH1106())[0])
-    panel.show(np.zeros((64, 128), np.uint8))
-    picture = np.zeros((64, 128), np.uint8)
+@pytest.mark.parametrize(("make", "most"), [(SSD1306, 4), (SH1106, 4), (SSD1327, 7), (SSD1322, 9)])
+def test_one_pixel_is_its_bytes_and_its_address(make, most):
+    panel = Panel(make(), wired(getattr(simulator, make.name)())[0])
+    picture = np.zeros((panel.height, panel.width), np.uint8)
+    panel.show(picture)
     picture[33, 100] = 1
-    assert panel.show(picture).wire_bytes == 4  # page, column's two halves, the byte
+    assert panel.show(picture).wire_bytes == most
     assert panel.show(picture).messages == 0
 
 
@@ -443,6 +446,13 @@ def test_a_url_says_everything(monkeypatch):
 def test_what_a_url_cannot_say(url, complaint):
     with pytest.raises(ValueError, match=complaint):
         open_panel(url)
+
+
+def test_a_simulated_chip_that_is_on_spi_alone_is_there():
+    with open_panel("sim://ssd1322?rotate=180") as panel:
+        panel.show(np.full((64, 256), 7, np.uint8))
+        assert panel.transport.wire == "spi"
+        assert (panel.simulated.pixels == 7).all()
 
 
 def test_a_simulated_chip_that_is_on_i2c_too_stays_there():
