@@ -183,9 +183,9 @@ class SPIBus(Wire):
             self._shift(payload[:got])
             if self.cs is None and not self.spi.no_cs:
                 self._deselect()
-            self._settle(seconds * sent / len(payload), sent)
             if fault and fault.then:
                 fault.then()
+            self._settle(seconds * sent / len(payload), sent)
             if fault and fault.errno:
                 raise os_error(fault.errno)
 

@@ -96,4 +96,4 @@ def check_bus(chip: object, bus: str) -> None:
     """Raise ValueError if a chip cannot sit on a kind of bus; what is no chip of ours may sit anywhere."""
     if isinstance(chip, Chip) and bus not in chip.buses:
         buses = " or ".join(map(str.upper, chip.buses))
-        raise ValueError(f"an {type(chip).__name__} sits on {buses}, not on {bus.upper()}")
+        raise ValueError(f"{type(chip).__name__} cannot sit on {bus.upper()}, but on {buses}")

@@ -381,10 +381,10 @@ def test_a_chip_without_a_data_output_feeds_nobody() -> None:
 def test_a_chip_on_the_wrong_kind_of_bus(monkeypatch: pytest.MonkeyPatch) -> None:
     chip = simulator.SSD1306()
     monkeypatch.setattr(simulator.SSD1306, "buses", ("i2c",))
-    with pytest.raises(ValueError, match="an SSD1306 sits on I2C, not on SPI"):
+    with pytest.raises(ValueError, match="SSD1306 cannot sit on SPI, but on I2C"):
         simulator.SPIBus(chip)
     monkeypatch.setattr(simulator.SSD1306, "buses", ("spi",))
-    with pytest.raises(ValueError, match="an SSD1306 sits on SPI, not on I2C"):
+    with pytest.raises(ValueError, match="SSD1306 cannot sit on I2C, but on SPI"):
         simulator.I2CBus({0x3C: chip})
 
 

@@ -83,7 +83,7 @@ def test_what_endangers_the_picture() -> None:
 
 
 def test_it_is_not_for_i2c() -> None:
-    with pytest.raises(ValueError, match="SSD1322 sits on SPI, not on I2C"):
+    with pytest.raises(ValueError, match="SSD1322 cannot sit on I2C, but on SPI"):
         simulator.I2CBus({0x3C: simulator.SSD1322()})
 
 

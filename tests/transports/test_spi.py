@@ -11,7 +11,7 @@ import tempfile
 import numpy as np
 import pytest
 
-from paneldraw import Panel, open_panel, simulator
+from paneldraw import Panel, open_panel, simulator, urls
 from paneldraw.controllers import SH1106, SSD1306, SSD1309, SSD1322, SSD1327
 from paneldraw.errors import (
     PanelBusyError,
@@ -446,6 +446,13 @@ def test_a_url_says_everything(monkeypatch):
 def test_what_a_url_cannot_say(url, complaint):
     with pytest.raises(ValueError, match=complaint):
         open_panel(url)
+
+
+def test_a_url_of_i2c_says_the_reset_line():
+    wanted = urls.parse("i2c://1/0x3c?chip=ssd1309&reset=4&gpiochip=/dev/gpiochip1")
+    assert wanted.transport == {"reset": 4, "gpiochip": "/dev/gpiochip1"}
+    with pytest.raises(ValueError, match=r"it is on SPI, such as spi://0.0\?chip=ssd1322"):
+        urls.parse("i2c://1/0x3c?chip=ssd1322")
 
 
 def test_a_simulated_chip_that_is_on_spi_alone_is_there():
