@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import difflib
+from collections.abc import Callable, Iterable
 
 
 class PanelError(Exception):
@@ -52,3 +53,15 @@ class PanelDisconnectedError(TransportError):
 
 class ProtocolError(PanelError):
     """The far end of a serial link answered something that the protocol does not allow."""
+
+
+def did_you_mean(word: str, known: Iterable[str]) -> str:
+    """Return what a message may end with: the known word that is most like a wrong one, or nothing.
+
+    Examples
+    --------
+    >>> did_you_mean("colour", ["column_offset", "color"])
+    '; did you mean color?'
+    """
+    near = difflib.get_close_matches(word, list(known), 1)
+    return f"; did you mean {near[0]}?" if near else ""

@@ -17,9 +17,9 @@ import numpy as np
 import numpy.typing as npt
 
 from paneldraw import urls
-from paneldraw.controllers import BUSES, Controller
+from paneldraw.controllers import BUSES, CHIPS, Controller
 from paneldraw.controllers.packing import PACK
-from paneldraw.errors import PanelError, PanelTimeoutError, TransportError
+from paneldraw.errors import PanelError, PanelTimeoutError, TransportError, did_you_mean
 from paneldraw.framebuffer import Framebuffer, pictures
 from paneldraw.leaving import arrange, follow
 from paneldraw.pacing import Frames
@@ -107,10 +107,11 @@ class Panel:
 
     Parameters
     ----------
-    controller : Controller
-        What the chip and its glass are, such as ``SSD1306(128, 64)``.
-    transport : Transport
-        What carries the bytes, such as ``I2CTransport(bus=1)``. The panel closes it.
+    controller : Controller, chip or str
+        What the chip and its glass are, such as ``SSD1306(128, 64)``; a chip alone, or its name, is its usual module.
+    transport : Transport, int or bus
+        What carries the bytes, such as ``I2CTransport(bus=1)``. The panel closes it. The number of an I2C bus, or an
+        object with the interface of `smbus2.SMBus`, stands for the panel at that bus's usual address.
     rotate : int, optional
         Degrees by which the picture is turned clockwise: 0 (default), 90, 180 or 270.
     contrast : int, optional
@@ -151,8 +152,8 @@ class Panel:
 
     def __init__(
         self,
-        controller: Controller,
-        transport: Transport,
+        controller: Controller | Callable[[], Controller] | str,
+        transport: Any,
         *,
         rotate: int = 0,
         contrast: int | None = None,
@@ -160,8 +161,10 @@ class Panel:
         updates: Updates = "least",
         refresh: float | None = None,
     ) -> None:
+        record = _record(controller)
+        transport = _carrier(transport, record)
         try:
-            self._set_up(controller, transport, contrast, updates, refresh)
+            self._set_up(record, transport, contrast, updates, refresh)
             self.rotate = rotate
             _check_on_close(on_close)
             with self._lock:
@@ -280,10 +283,10 @@ class Panel:
 
         Parameters
         ----------
-        source : Framebuffer, numpy array or Pillow image, optional
-            A picture of the panel's width and height. An array is (height, width), bool or integer levels from 0 to
-            the panel's highest. What is deeper than the panel is reduced to its nearest levels. Default: the picture
-            of the last `frame`.
+        source : Framebuffer, numpy array, Pillow image or path, optional
+            A picture of the panel's width and height; a path is that of a file that Pillow reads. An array is
+            (height, width), bool or integer levels from 0 to the panel's highest. What is deeper than the panel is
+            reduced to its nearest levels. Default: the picture of the last `frame`.
         force : bool, optional
             Start the chip anew and send everything, changed or not. Default: False.
         wait : bool, optional
@@ -529,10 +532,13 @@ class Panel:
             pixels, max_level = source.pixels, source.max_level
         elif isinstance(source, np.ndarray):
             pixels, max_level = _array(source, self.depth)
+        elif isinstance(source, (str, os.PathLike)):
+            pixels, max_level = pictures.to_gray(pictures.opened(source))[0], 255
         elif (pillow := sys.modules.get("PIL.Image")) is not None and isinstance(source, pillow.Image):
             pixels, max_level = pictures.to_gray(source)[0], 255
         else:
-            raise TypeError(f"source must be a Framebuffer, numpy array or Pillow image, not {type(source).__name__}")
+            kind = type(source).__name__
+            raise TypeError(f"source must be a Framebuffer, numpy array, Pillow image or file name, not {kind}")
         if pixels.shape != (self._size[1], self._size[0]):
             size = f"{pixels.shape[1]} x {pixels.shape[0]}" if pixels.ndim == 2 else f"an array of shape {pixels.shape}"
             raise ValueError(f"source must be {self.width} x {self.height} pixels like the panel, not {size}")
@@ -742,6 +748,35 @@ class Panel:
         """Do what is due when no picture came for a while."""
 
 
+def _record(controller: Any) -> Controller:
+    """The record that is meant by what a script gives for it."""
+    if isinstance(controller, Controller):
+        return controller
+    if isinstance(controller, str):
+        chip = CHIPS.get(controller.lower())
+        if chip is None:
+            hint = did_you_mean(controller.lower(), CHIPS)
+            raise ValueError(f"controller must be one of {', '.join(CHIPS)}, not {controller!r}{hint}")
+        return chip()
+    if controller in CHIPS.values():
+        made: Controller = controller()
+        return made
+    raise TypeError(f"controller must be a Controller, such as SSD1306(128, 64), or a chip's name, not {controller!r}")
+
+
+def _carrier(transport: Any, controller: Controller) -> Transport:
+    """The transport that is meant by what a script gives for it."""
+    if all(callable(getattr(transport, name, None)) for name in ("command", "data", "batch", "close")):
+        return transport  # type: ignore[no-any-return]
+    if callable(getattr(transport, "i2c_rdwr", None)) or (
+        isinstance(transport, (int, str)) and not isinstance(transport, bool)
+    ):
+        if "://" in str(transport):
+            raise ValueError(f"transport must be a transport or a bus, not a URL: write open_panel({transport!r})")
+        return I2CTransport(transport)
+    raise TypeError(f"transport must be a transport, such as I2CTransport(bus=1), or an I2C bus, not {transport!r}")
+
+
 def _check_on_close(value: str) -> None:
     if value not in _ON_CLOSE:
         raise ValueError(f"on_close must be one of {', '.join(map(repr, _ON_CLOSE))}, not {value!r}")
@@ -800,7 +835,7 @@ def open_panel(url: str | None = None) -> Panel:
     ...     panel
     <Panel ssd1306 128x32, rotate=0>
     """
-    wanted = urls.parse(os.environ.get("PANELDRAW_PANEL") or "sim://ssd1306" if url is None else url)
+    wanted = _wanted(url)
     transport: Transport
     simulated = None
     with contextlib.ExitStack() as unless_done:
@@ -821,6 +856,17 @@ def open_panel(url: str | None = None) -> Panel:
         unless_done.pop_all()
     panel.simulated = simulated
     return panel
+
+
+def _wanted(url: str | None) -> urls.PanelURL | urls.SerialURL:
+    """The URL that is meant, taken apart."""
+    if url is not None:
+        return urls.parse(url)
+    named = os.environ.get("PANELDRAW_PANEL")
+    try:
+        return urls.parse(named or "sim://ssd1306")
+    except ValueError as error:
+        raise ValueError(f"the environment variable PANELDRAW_PANEL is {named!r}: {error}") from None
 
 
 def _simulated(wanted: urls.PanelURL) -> tuple[Transport, Any]:

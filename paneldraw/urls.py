@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Final
 from urllib.parse import SplitResult, parse_qsl, unquote, urlencode, urlsplit
 
 from paneldraw.controllers import BUSES, CHIPS, Controller
-from paneldraw.errors import ProtocolError
+from paneldraw.errors import ProtocolError, did_you_mean
 
 if TYPE_CHECKING:
     from firmware_protocol import HelloReply
@@ -144,10 +145,13 @@ def serial(port: str) -> SerialURL:
 def _i2c(parts: SplitResult) -> PanelURL:
     lines = ("reset", "gpiochip")
     query = _query(parts, "chip", *_MODULE, "max_message", *lines, *_PANEL)
-    if parts.netloc:
-        place, address = parts.netloc, parts.path.strip("/")
-    else:  # i2c:///dev/i2c-1/0x3c
+    if parts.netloc:  # 1, 1/0x3c or 1:0x3c
+        place, colon, address = parts.netloc.partition(":")
+        address = address if colon else parts.path.strip("/")
+    else:  # /dev/i2c-1 or /dev/i2c-1/0x3c
         place, _, address = parts.path.rpartition("/")
+        if address.startswith("i2c-"):
+            place, address = parts.path, ""
     if ":" in address.partition("/")[0]:  # 1/0x70:3/0x3c
         through, _, address = address.partition("/")
         place = f"{place}/{through}"
@@ -158,11 +162,18 @@ def _i2c(parts: SplitResult) -> PanelURL:
         "i2c",
         _on("i2c", _controller(query.get("chip", _CHIP), query)),
         bus=int(place) if place.isdecimal() else place,
-        address=_number(address, "address", "0x3c") if address else _ADDRESS,
+        address=_address(address) if address else _ADDRESS,
         module=_module(query),
         transport=mux | _settings(query, {"max_message": "32"}) | _lines(query, *lines),
         panel=_settings(query, _PANEL),
     )
+
+
+def _address(text: str) -> int:
+    """Read an address, of which people write ``3c`` as well as ``0x3c``."""
+    if re.fullmatch("[0-9]?[a-f]|[0-9a-f][a-f]|[0-9][a-f]", text.lower()):
+        text = f"0x{text}"
+    return _number(text, "address", "0x3c")
 
 
 def _multiplexer(place: str) -> tuple[str, dict[str, Any]]:
@@ -220,7 +231,8 @@ def _query(parts: SplitResult, *known: str) -> dict[str, str]:
     pairs = parse_qsl(parts.query, keep_blank_values=True)
     for name, _ in pairs:
         if name not in known:
-            raise ValueError(f"url must have no parameters but {', '.join(known)}, not {name!r}")
+            hint = did_you_mean(name, known)
+            raise ValueError(f"url must have no parameters but {', '.join(known)}, not {name!r}{hint}")
     query = dict(pairs)
     if len(query) < len(pairs):
         raise ValueError(f"url must have each parameter once, not {parts.query!r}")
@@ -230,7 +242,8 @@ def _query(parts: SplitResult, *known: str) -> dict[str, str]:
 def _controller(chip: str, query: dict[str, str]) -> Controller:
     make = CHIPS.get(chip.lower())
     if make is None:
-        raise ValueError(f"chip must be one of {', '.join(CHIPS)}, not {chip!r}")
+        hint = did_you_mean(chip.lower(), CHIPS)
+        raise ValueError(f"chip must be one of {', '.join(CHIPS)}, not {chip!r}{hint}")
     for name in query:
         if name in _MODULE and name not in ("size", *make.parameters):
             raise ValueError(f"{name} must not be given for the {make.name}, which has {', '.join(make.parameters)}")

@@ -522,3 +522,46 @@ def test_without_a_url_the_environment_says_which(monkeypatch):
     for empty in (lambda: monkeypatch.setenv("PANELDRAW_PANEL", ""), lambda: monkeypatch.delenv("PANELDRAW_PANEL")):
         empty()
         assert (open_panel().width, open_panel().height) == (128, 64)
+
+
+# -- What people type
+
+
+@pytest.mark.parametrize("controller", [SSD1306(), SSD1306, "ssd1306", "SSD1306"])
+def test_a_chip_and_a_bus_are_enough(controller):
+    chip = simulator.SSD1306()
+    panel = Panel(controller, simulator.I2CBus({0x3C: chip}))
+    panel.show(noise(1))
+    np.testing.assert_array_equal(chip.pixels, noise(1))
+    panel.clear()
+    assert not chip.pixels.any()
+
+
+def test_what_is_no_controller_or_no_transport_says_what_to_write():
+    bus = simulator.I2CBus({0x3C: simulator.SSD1306()})
+    with pytest.raises(ValueError, match=r"not 'ssd1360'; did you mean ssd130\d\?"):
+        Panel("ssd1360", bus)
+    with pytest.raises(TypeError, match=r"controller must be a Controller, such as SSD1306\(128, 64\)"):
+        Panel(bus, SSD1306())
+    with pytest.raises(TypeError, match=r"transport must be a transport, such as I2CTransport\(bus=1\)"):
+        Panel(SSD1306(), None)
+    with pytest.raises(ValueError, match=r"write open_panel\('i2c://1'\)"):
+        Panel(SSD1306(), "i2c://1")
+
+
+def test_the_environment_is_named_as_the_source(monkeypatch):
+    monkeypatch.setenv("PANELDRAW_PANEL", "i2c://1?chip=ssd1360")
+    with pytest.raises(ValueError, match=r"PANELDRAW_PANEL is 'i2c://1\?chip=ssd1360': chip must be one of"):
+        open_panel()
+
+
+def test_a_pictures_file(tmp_path):
+    panel, chip = simulated()
+    path = tmp_path / "picture.png"
+    Image.fromarray(noise(3) * 255).save(path)
+    for name in (path, str(path)):
+        panel.clear()
+        panel.show(name)
+        np.testing.assert_array_equal(chip.pixels, noise(3))
+    with pytest.raises(FileNotFoundError, match=r"none.png"):
+        panel.show("none.png")

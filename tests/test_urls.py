@@ -22,6 +22,9 @@ from paneldraw.errors import ProtocolError
         ("i2c://1/0x3c?chip=sh1106", {"controller": SH1106()}),
         ("sim://ssd1327?size=96x96", {"scheme": "sim", "controller": SSD1327(96, 96)}),
         ("i2c:///dev/i2c-7/0x3d", {"bus": "/dev/i2c-7", "address": 0x3D}),
+        ("i2c:///dev/i2c-7", {"bus": "/dev/i2c-7"}),
+        ("i2c://1/3d", {"address": 0x3D}),
+        ("i2c://1:0x3d", {"address": 0x3D}),
         (
             "i2c://1?size=100x50&column_offset=0x0e&com_pins=0x12&first_com=7&max_message=32&updates=plain&contrast=9",
             {
@@ -99,8 +102,9 @@ def test_a_board_that_knows_nothing_of_its_panel():
         ("http://1/0x3c", "i2c://.*sim://"),
         ("i2c://", "i2c://1/0x3c"),
         ("i2c://1/0x3c/7", "i2c://1/0x3c"),
-        ("i2c://1/3c", "address must be a whole number, such as 0x3c"),
-        ("i2c://1?chip=ssd1307", "chip must be one of ssd1306"),
+        ("i2c://1/x3c", "address must be a whole number, such as 0x3c"),
+        ("i2c://1?chip=ssd1307", "chip must be one of ssd1306.*, not 'ssd1307'; did you mean ssd13"),
+        ("i2c://1?mirror=1", "not 'mirror'; did you mean mirror_[xy]"),
         ("i2c://1?size=128*64", "size must be like 128x64"),
         ("i2c://1?size=128x65", "1x1 to 128x64"),
         ("i2c://1?size=100x50", "128x64, 128x32.* for another one give column_offset= and com_pins="),

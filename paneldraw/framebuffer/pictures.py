@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import operator
+import os
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
@@ -31,6 +32,14 @@ def to_image(levels: Levels, max_level: int, scale: int = 1) -> Image.Image:
     gray = np.minimum(levels, max_level).astype(np.uint16) * 255 // max_level
     image = Image.fromarray(gray.astype(np.uint8))
     return image.convert("1", dither=Image.Dither.NONE) if max_level == 1 else image
+
+
+def opened(path: str | os.PathLike[str]) -> Image.Image:
+    """Read a picture's file, upright."""
+    from PIL import Image, ImageOps
+
+    with Image.open(path) as file:
+        return ImageOps.exif_transpose(file)
 
 
 def to_png(levels: Levels, max_level: int, scale: int = 1) -> bytes:

@@ -254,11 +254,14 @@ class I2CTransport:
         return f"0x{self.address:02X} on {self.name}"
 
     def _open(self, path: str) -> Any:
-        bus = self._smbus2.SMBus()
+        bus = self._smbus2.SMBus() if isinstance(self._smbus2.SMBus, type) else None
         try:
+            if bus is None:  # a function that somebody put there
+                return self._smbus2.SMBus(path)
             bus.open(path)
         except OSError as error:
-            bus.close()
+            if bus is not None:
+                bus.close()  # a file that is no bus was opened all the same
             raise _not_opened(error, path) from error
         return bus
 

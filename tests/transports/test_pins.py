@@ -220,7 +220,7 @@ def test_a_bus_is_closed_again_where_the_line_cannot_be_had(machine, monkeypatch
     closed = []
     bus = simulator.I2CBus()
     bus.close = lambda: closed.append(True)
-    monkeypatch.setattr(smbus2, "SMBus", lambda: bus)
+    monkeypatch.setattr(smbus2, "SMBus", lambda path: bus)
     machine.held["/dev/gpiochip0", 4] = "lirc"
     with pytest.raises(PanelBusyError, match="in use by lirc"):
         I2CTransport(1, reset=4)
