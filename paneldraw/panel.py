@@ -70,6 +70,9 @@ class Sent(NamedTuple):
     messages: int
 
 
+_NOTHING: Final = Sent(0, 0)
+
+
 @dataclass(slots=True)
 class Stats:
     """Sums over all `Report`s of a panel, and what went wrong on the way."""
@@ -169,7 +172,7 @@ class Panel:
             _check_on_close(on_close)
             with self._lock:
                 self._do(self._restore)
-                self._asked = Sent(0, 0)
+                self._asked = _NOTHING
         except BaseException:
             self._closed = True
             transport.close()
@@ -209,7 +212,7 @@ class Panel:
         self._shown = False
         self._watched = False  # whether the chip answers its status right
         self._looked = self._started = 0.0
-        self._asked = Sent(0, 0)  # what reads cost that no report has counted
+        self._asked = _NOTHING  # what reads cost that no report has counted
         self._own: Framebuffer | None = None
 
     @property
@@ -311,7 +314,8 @@ class Panel:
         A show from a signal handler, in the middle of a show of the same thread, is done when that one is, and then
         that one's picture is shown again: the report says `queued`.
         """
-        self._listen()
+        if self._closed or self._foreign or self._sender is not None:
+            self._listen()
         pixels, max_level = self._levels(source)
         if wait and self._sender is None:
             return self._show(pixels, max_level, force)
@@ -574,7 +578,7 @@ class Panel:
     def _show(self, pixels: Levels, max_level: int, force: bool = False) -> Report:
         """Show checked levels."""
         started = time.perf_counter()
-        if self._inside():
+        if self._lock._is_owned():  # type: ignore[attr-defined]
             copy = pixels.copy()
             self._later.append(lambda: self._show_now(copy, max_level, force, time.perf_counter()))
             return Report(0, 0, 0, 0.0, queued=True)
@@ -594,7 +598,8 @@ class Panel:
         return not self._closed
 
     def _show_now(self, pixels: Levels, max_level: int, force: bool, started: float) -> Report:
-        self._check()
+        if self._closed or self._foreign:
+            self._check()
         self._pack(self._upright(pixels), max_level, self._planner.fresh)
         if (
             force
@@ -686,8 +691,10 @@ class Panel:
             self._lit = True
             self._watched = self._watched and self._status() == 0
         self._ready = True
-        asked, self._asked = self._asked, Sent(0, 0)
-        return wire + asked.wire_bytes, messages + plan.count + asked.messages, plan.changed
+        if self._asked is not _NOTHING:
+            wire, messages = wire + self._asked.wire_bytes, messages + self._asked.messages
+            self._asked = _NOTHING
+        return wire, messages + plan.count, plan.changed
 
     def _command(self, *commands: bytes) -> Sent:
         """Send commands, each with its arguments."""

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import contextlib
 import ctypes
 import errno
 import glob
 import os
 import threading
 import weakref
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from types import ModuleType
 from typing import Any, ClassVar, Final
 
@@ -127,11 +126,14 @@ class I2CTransport:
 
     def batch(self, plan: Plan) -> int:
         """Send a plan in as few calls as the limits allow; return the bytes on the wire."""
-        if self.max_message < BYTES_A_MESSAGE or plan.longest > BYTES_A_MESSAGE:
+        short = self.max_message < BYTES_A_MESSAGE
+        if short or (plan.buffer.size > BYTES_A_MESSAGE and plan.longest > BYTES_A_MESSAGE):
             return sum(self._write(kind, payload) for kind, payload in plan)
         messages = self._messages.of(plan)
         wire = plan.cost
         try:
+            if plan.count <= MESSAGES_A_CALL:
+                return wire + self._send(messages)
             for first in range(0, plan.count, MESSAGES_A_CALL):
                 wire += self._send(messages[first : first + MESSAGES_A_CALL])
         except _TooMuchError:
@@ -143,8 +145,7 @@ class I2CTransport:
     def read_status(self) -> tuple[int, int]:
         """Read the panel's status byte; return it, and the bytes on the wire."""
         if self._blocks:
-            with self._translating():
-                return int(self.bus.read_byte(self.address)), _FRAMING
+            return int(self._block(self.bus.read_byte)), _FRAMING
         message = self._smbus2.i2c_msg.read(self.address, 1)
         extra = self._send([message])
         return int(bytes(message)[0]), _FRAMING + extra
@@ -205,9 +206,7 @@ class I2CTransport:
     def _piece(self, kind: int, payload: bytes | memoryview) -> int:
         """Send one message; return the bytes on the wire."""
         if self._blocks:
-            with self._translating():
-                self.bus.write_i2c_block_data(self.address, kind, list(payload))
-            self._answered = True
+            self._block(self.bus.write_i2c_block_data, kind, list(payload))
             return _FRAMING + len(payload)
         message = self._smbus2.i2c_msg.write(self.address, bytes((kind,)) + payload)
         return self._send([message]) + _FRAMING + len(payload)
@@ -215,31 +214,38 @@ class I2CTransport:
     def _send(self, messages: list[Any]) -> int:
         """Send messages in one call; return the bytes that this cost beside them."""
         self._lines.fresh = False
-        with self._translating():
+        try:
             if self._mux is None:
                 extra, done = 0, self._rdwr(*messages)
             else:
                 extra, done = self._mux.through(self._rdwr, messages)
+        except (OSError, TypeError, AttributeError) as error:
+            raise self._failure(error) from error
         if done is not None and done < len(messages):
             short = TransportError(errno.EIO, f"only {done} of {len(messages)} messages reached {self._where()}")
             raise transient(short) if self._answered else short
         self._answered = True
         return extra
 
-    @contextlib.contextmanager
-    def _translating(self) -> Iterator[None]:
-        if self.bus is None:
-            raise TransportError(errno.EBADF, f"the transport to {self.name} is closed")
+    def _block(self, transfer: Callable[..., Any], *arguments: Any) -> Any:
+        """Do a transfer of SMBus."""
         try:
-            yield
-        except OSError as error:
-            if error.errno == errno.EOPNOTSUPP and not self._blocks:
-                raise _TooMuchError from error
-            raise self._translated(error) from error
-        except TypeError as error:
-            if getattr(self.bus, "fd", -1) is not None:
-                raise
-            raise TransportError(errno.EBADF, f"bus {self.name} is closed: open it, or give its number") from error
+            answer = transfer(self.address, *arguments)
+        except (OSError, TypeError) as error:
+            raise self._failure(error) from error
+        self._answered = True
+        return answer
+
+    def _failure(self, error: Exception) -> Exception:
+        """What to raise for what a bus raised."""
+        if self.bus is None:
+            return TransportError(errno.EBADF, f"the transport to {self.name} is closed")
+        if isinstance(error, OSError):
+            too_much = error.errno == errno.EOPNOTSUPP and not self._blocks
+            return _TooMuchError() if too_much else self._translated(error)
+        if getattr(self.bus, "fd", -1) is None:
+            return TransportError(errno.EBADF, f"bus {self.name} is closed: open it, or give its number")
+        return error
 
     def _rdwr(self, *messages: Any) -> int | None:
         """Transfer messages; return how many went through, if that is known."""
