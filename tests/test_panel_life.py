@@ -416,7 +416,6 @@ def test_more_frames_than_can_be_are_said_once_with_the_figure():
     now = [0.0]
     frames = Frames(30, clock=lambda: now[0], sleep=lambda seconds: None)
 
-
     def animate():
         for _, _ in zip(range(60), frames, strict=False):
             now[0] += 0.2

@@ -11,12 +11,12 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from .simulator import Frame, TerminalView, save
-from .simulator.recorder import Showing
+from paneldraw.simulator import Frame, TerminalView, save
+from paneldraw.simulator.recorder import Showing
 
 if TYPE_CHECKING:
-    from .demos import Demo
-    from .panel import Panel
+    from paneldraw.demos import Demo
+    from paneldraw.panel import Panel
 
 TEN_PAST_TEN = 10 * 3600 + 9 * 60 + 36.0
 """Seconds after midnight at which what is saved begins, so that it comes out the same every time."""

@@ -15,14 +15,14 @@ from pathlib import Path
 from types import FrameType
 from typing import TYPE_CHECKING, NoReturn
 
-from .errors import PanelError
+from paneldraw.errors import PanelError
 
 if TYPE_CHECKING:
     from PIL.Image import Image
 
-    from .framebuffer import Framebuffer
-    from .panel import Panel
-    from .text import Font
+    from paneldraw.framebuffer import Framebuffer
+    from paneldraw.panel import Panel
+    from paneldraw.text import Font
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -111,7 +111,10 @@ def _parser() -> argparse.ArgumentParser:
     parser = _Parser(prog="paneldraw", description="Draw on OLED, LCD and LED panels, real or simulated.")
     parser.add_argument("--version", action=_Version)
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
-    for add in (_add_demo, _add_show, _add_text, _add_detect, _add_info, _add_bench, _add_firmware):
+    for add in (
+        *(_add_demo, _add_show, _add_text, _add_clear, _add_off, _add_panels, _add_detect, _add_check, _add_info),
+        *(_add_bench, _add_firmware),
+    ):
         add(commands)
     return parser
 
@@ -121,7 +124,7 @@ class _Version(argparse.Action):
         super().__init__(option_strings, dest, nargs=0, help="print the version and leave")
 
     def __call__(self, parser: argparse.ArgumentParser, *_: object) -> NoReturn:
-        from . import diagnostics
+        from paneldraw.cli import diagnostics
 
         print(f"paneldraw {diagnostics.version('paneldraw')}")
         parser.exit()
@@ -163,7 +166,7 @@ def _positive(kind: Callable[[str], float], most: float = math.inf) -> Callable[
 
 
 def _add_demo(commands: _Commands) -> None:
-    from .demos import DEMOS
+    from paneldraw.demos import DEMOS
 
     about = "\n".join(f"  {name:6} {what}" for name, what in DEMOS.items())
     parser = _command(commands, "demo", _demo, "run an animated demo", f"demos:\n{about}")
@@ -190,8 +193,8 @@ def _check_folder(path: Path | None) -> None:
 
 
 def _demo(options: argparse.Namespace) -> int:
-    from . import playback
-    from .demos import find
+    from paneldraw.cli import playback
+    from paneldraw.demos import find
 
     frames = options.frames or max(1, (options.seconds or 10.0) * options.fps)
     if options.save and not math.isfinite(frames):
@@ -262,6 +265,7 @@ def _add_text(commands: _Commands) -> None:
     size.add_argument(
         "--scale", type=_positive(int, 100), default=1, metavar="N", help="pixels to a pixel of the font (1)"
     )
+    parser.add_argument("--invert", action="store_true", help="dark letters on a lit panel")
 
 
 def _text(options: argparse.Namespace) -> int:
@@ -272,12 +276,14 @@ def _text(options: argparse.Namespace) -> int:
         fb = panel.framebuffer()
         lines = _wrap(text, font, fb.width)
         fb.text(lines, (fb.width - 1) // 2, (fb.height - 1) // 2, font=font, anchor="mm")
+        if options.invert:
+            fb.pixels[:] = fb.max_level - fb.pixels
         _present(panel, fb, text)
     return 0
 
 
 def _font(options: argparse.Namespace) -> Font:
-    from .text import Font
+    from paneldraw.text import Font
 
     if options.font:
         font = Font.truetype(options.font, options.size or 16)
@@ -306,21 +312,81 @@ def _wrap(text: str, font: Font, width: int) -> str:
 
 
 def _opened(options: argparse.Namespace) -> Panel:
-    from .panel import open_panel
+    from paneldraw.panel import open_panel
 
     return open_panel(options.panel)
 
 
 def _present(panel: Panel, fb: Framebuffer, what: str) -> None:
     """Show one picture; a simulated panel appears in the terminal."""
-    from . import playback
+    from paneldraw.cli import playback
 
     report = panel.show(fb)
     what = textwrap.shorten(" ".join(what.split()), 40)
     playback.print_panel(panel, f"{what}: {report.wire_bytes} bytes on the wire")
 
 
-# detect and info
+# clear and off
+
+
+def _add_clear(commands: _Commands) -> None:
+    _command(commands, "clear", _clear, "show a black picture, as the last act of a service (ExecStop=)")
+
+
+def _clear(options: argparse.Namespace) -> int:
+    with _opened(options) as panel:
+        panel.clear()
+    return 0
+
+
+def _add_off(commands: _Commands) -> None:
+    _command(commands, "off", _off, "turn the panel off, as the last act of a service (ExecStop=)")
+
+
+def _off(options: argparse.Namespace) -> int:
+    with _opened(options) as panel:
+        panel.sleep()
+    return 0
+
+
+# panels, detect, check and info
+
+
+def _add_panels(commands: _Commands) -> None:
+    about = "list the chips that there are drivers for, or say what is known of one"
+    parser = commands.add_parser("panels", help=about, description=about)
+    parser.add_argument("chip", nargs="?", metavar="CHIP", help="such as ssd1306; default: all, a line each")
+    parser.set_defaults(run=_panels)
+
+
+def _panels(options: argparse.Namespace) -> int:
+    from paneldraw.cli import catalog
+
+    for line in catalog.describe(options.chip) if options.chip else catalog.table():
+        print(line)
+    return 0
+
+
+def _add_check(commands: _Commands) -> None:
+    about = "draw a test card in steps and ask what the glass shows: its wiring, and which tricks it obeys"
+    _command(commands, "check", _check, about)
+
+
+def _check(options: argparse.Namespace) -> int:
+    from paneldraw.cli import check, playback
+    from paneldraw.panel import open_panel
+
+    url = options.panel or os.environ.get("PANELDRAW_PANEL") or "sim://ssd1306"
+    whole = f"{url}{'&' if '?' in url else '?'}updates=whole"
+    with open_panel(whole) as panel:
+        found = check.run(panel, lambda panel, shows: playback.print_panel(panel, f"must show: {shows}"), check.ask)
+    for advice in found.advice:
+        print(f"add to the URL: {advice}; then check again")
+    if not found.advice:
+        query = "&".join(found.parameters)
+        joint = ("&" if "?" in url else "?") if query else ""
+        print(f"use: {url}{joint}{query}")
+    return 0
 
 
 def _add_detect(commands: _Commands) -> None:
@@ -328,7 +394,7 @@ def _add_detect(commands: _Commands) -> None:
 
 
 def _detect(options: argparse.Namespace) -> int:
-    from . import diagnostics
+    from paneldraw.cli import diagnostics
 
     found = diagnostics.detect(options.panel or os.environ.get("PANELDRAW_PANEL"))
     for line in found.lines:
@@ -343,7 +409,7 @@ def _add_info(commands: _Commands) -> None:
 
 
 def _info(options: argparse.Namespace) -> int:
-    from . import diagnostics
+    from paneldraw.cli import diagnostics
 
     for name, value in diagnostics.info(options.panel):
         print(f"{name + ':':14}{value}")
@@ -368,7 +434,7 @@ def _chart_path(text: str) -> Path:
 
 
 def _bench(options: argparse.Namespace) -> int:
-    from . import bench
+    from paneldraw.cli import bench
 
     _check_folder(options.save)
     lines = bench.measured(options.frames)
@@ -380,6 +446,6 @@ def _bench(options: argparse.Namespace) -> int:
 
 
 def _add_firmware(commands: _Commands) -> None:
-    from . import cli_firmware
+    from paneldraw.cli import firmware
 
-    cli_firmware.add(commands, _positive(int), _positive(float))
+    firmware.add(commands, _positive(int), _positive(float))

@@ -17,13 +17,24 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 from urllib.parse import urlsplit
 
-from .errors import TransportError
-from .transports import I2CTransport
+import paneldraw
+from paneldraw.errors import TransportError
+from paneldraw.transports import I2CTransport
 
 if TYPE_CHECKING:
-    from .panel import Panel
+    from paneldraw.panel import Panel
 
 PANELS = {0x3C: "as most OLED panels", 0x3D: "as an OLED panel with its address jumper moved"}
+STATUS = {0x8: "sh1106", 0x3: "ssd1306", 0x6: "ssd1306", 0x7: "sh1107", 0xF: "sh1107"}
+"""The lower four bits of the status byte, as modules seen so far answer them, and what chip they had."""
+SYMPTOMS = (
+    "what the picture looks like, and what to add to the URL:",
+    "  noise along an edge, or a shift of two columns    chip=sh1106",
+    "  half the lines, or lines twice as high            size=128x32",
+    "  mirrored                                          mirror_x=1",
+    "  right, but dim                                    internal_reference=1",
+    "  nothing at all                                    reset= with its line, charge_pump=1; check the wiring",
+)
 NOBODY = (121, errno.ENXIO, errno.EIO)
 """EREMOTEIO, which only Linux has a name for, ENXIO or EIO, as the adapter's driver has it."""
 NO_BUS = (
@@ -40,6 +51,7 @@ class Found:
     lines: list[str] = field(default_factory=list)
     panels: list[str] = field(default_factory=list)
     advice: str = NO_PANEL
+    unknown: bool = False
 
 
 def version(package: str) -> str:
@@ -65,7 +77,7 @@ def info(url: str | None = None) -> Iterator[tuple[str, str]]:
     if url is None:
         yield "panel", os.environ.get("PANELDRAW_PANEL") or "a simulated SSD1306 ($PANELDRAW_PANEL is not set)"
     else:
-        from .panel import open_panel
+        from paneldraw.panel import open_panel
 
         with open_panel(url) as panel:
             yield "panel", describe(panel)
@@ -77,7 +89,7 @@ def describe(panel: Panel) -> str:
 
 
 def _speed() -> str:
-    from ._compiled import COMPILED
+    from paneldraw._compiled import COMPILED
 
     return "compiled" if COMPILED else f"interpreted, which is slow; install a C compiler, then run: {rebuild()}"
 
@@ -97,7 +109,7 @@ def _origin() -> list[str]:
     try:
         recorded = importlib.metadata.distribution("paneldraw").read_text("direct_url.json")
     except importlib.metadata.PackageNotFoundError:
-        return ["--editable", str(Path(__file__).parent.parent)]
+        return ["--editable", str(Path(paneldraw.__file__).parent.parent)]
     if recorded is None:
         return ["paneldraw"]
     origin = json.loads(recorded)
@@ -151,7 +163,7 @@ def detect(url: str | None = None) -> Found:
     found = Found()
     parts = urlsplit(url or "i2c://")
     if parts.scheme == "sim":
-        from .panel import open_panel
+        from paneldraw.panel import open_panel
 
         with open_panel(url) as panel:
             if isinstance(panel.transport, I2CTransport):
@@ -165,6 +177,8 @@ def detect(url: str | None = None) -> Found:
     else:
         asks = f"paneldraw firmware info {url}" if parts.scheme == "serial" else "--panel i2c://1"
         raise ValueError(f"detect looks on I2C buses and on the simulated one, not on {url}; try {asks}")
+    if found.unknown:
+        found.lines += SYMPTOMS
     for port in serial_ports():
         name = port.partition(" ")[0]
         found.lines.append(f"serial port {port}: not asked; try: paneldraw firmware info {name}")
@@ -201,7 +215,7 @@ def _search(found: Found, bus: Any, title: str, url: str) -> None:
                 return
             found.lines.append(f"{title}: {address:02x} is in use by a driver of the kernel")
         else:
-            found.lines.append(f"{title}: {address:02x} answers{_guess(address, found, url)}")
+            found.lines.append(f"{title}: {address:02x} answers{_guess(bus, address, found, url)}")
         answers += 1
     if not answers:
         found.lines.append(f"{title}: nobody answers")
@@ -220,9 +234,21 @@ def _probe(bus: Any, address: int) -> None:
         bus.read_byte(address)
 
 
-def _guess(address: int, found: Found, url: str) -> str:
+def _guess(bus: Any, address: int, found: Found, url: str) -> str:
+    """Say what the device at an address may be, and how to try it."""
     if address not in PANELS:
         return ""
     panel = url if url == "sim://" else f"{url}/{address:#x}"
-    found.panels.append(panel)
-    return f", {PANELS[address]}; try: paneldraw demo --panel {panel}"
+    chip = _chip(bus, address)
+    named = f"{panel}?chip={chip}" if chip and url != "sim://" else panel
+    found.panels.append(named)
+    found.unknown = found.unknown or chip is None
+    guess = f"; its status is that of an {chip.upper()}, at a guess" if chip else ""
+    return f", {PANELS[address]}{guess}; try: paneldraw demo --panel {shlex.quote(named)}"
+
+
+def _chip(bus: Any, address: int) -> str | None:
+    try:
+        return STATUS.get(bus.read_byte(address) & 0x0F)
+    except OSError:
+        return None

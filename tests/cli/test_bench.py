@@ -11,7 +11,8 @@ import pytest
 from PIL import Image
 from running import assert_one_line_of_advice
 
-from paneldraw import Panel, bench, simulator
+from paneldraw import Panel, simulator
+from paneldraw.cli import bench
 from paneldraw.controllers import SSD1306
 from paneldraw.demos.scenes import SCENES
 from paneldraw.transports import I2CTransport
@@ -31,7 +32,7 @@ def test_every_scene_costs_less_than_a_whole_frame(lines):
 
 def test_no_scene_costs_more_than_a_whole_frame_a_box_or_page_runs(monkeypatch):
     """The rules of the benchmark, on its 120 frames a scene."""
-    monkeypatch.syspath_prepend(Path(__file__).parent / "benchmarks")
+    monkeypatch.syspath_prepend(Path(__file__).parent.parent / "benchmarks")
     scenes = importlib.import_module("scenes")
     costs = []
     for name, scene in SCENES.items():

@@ -5,12 +5,13 @@ from __future__ import annotations
 from statistics import mean
 from typing import Final, NamedTuple
 
-from . import playback, simulator
-from .controllers import SSD1306
-from .demos.scenes import HEIGHT, SCENES, WIDTH, Scene
-from .framebuffer import Framebuffer
-from .panel import Panel
-from .transports import I2CTransport
+from paneldraw import simulator
+from paneldraw.cli import playback
+from paneldraw.controllers import SSD1306
+from paneldraw.demos.scenes import HEIGHT, SCENES, WIDTH, Scene
+from paneldraw.framebuffer import Framebuffer
+from paneldraw.panel import Panel
+from paneldraw.transports import I2CTransport
 
 CLOCKS: Final = {"100 kHz": 100_000, "400 kHz": 400_000, "1 MHz": 1_000_000}
 """Rates of an I2C bus, in Hz."""

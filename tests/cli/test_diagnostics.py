@@ -17,8 +17,9 @@ import numpy as np
 import pytest
 import smbus2
 
-from paneldraw import _compiled, diagnostics, simulator
-from paneldraw.cli import main
+import paneldraw
+from paneldraw import _compiled, simulator
+from paneldraw.cli import diagnostics, main
 from paneldraw.framebuffer import Framebuffer
 
 
@@ -60,8 +61,30 @@ def test_all_that_answers_is_told_and_panels_are_named(machine):
     found = diagnostics.detect()
     told = [line.partition(": ")[2] for line in found.lines]
     assert [line.split()[0] for line in told] == ["36", "3d", "68"]
-    assert found.panels == ["i2c://1/0x3d"]
-    assert "paneldraw demo --panel i2c://1/0x3d" in told[1]
+    assert found.panels == ["i2c://1/0x3d?chip=ssd1306"]
+    assert "paneldraw demo --panel 'i2c://1/0x3d?chip=ssd1306'" in told[1]
+
+
+@pytest.mark.parametrize(("make", "guess"), [("SSD1306", "ssd1306"), ("SH1106", "sh1106"), ("SH1107", "sh1107")])
+def test_the_chip_is_guessed_by_its_status(machine, make, guess):
+    machine[1] = ("bcm2835", simulator.I2CBus({0x3C: getattr(simulator, make)()}))
+    found = diagnostics.detect()
+    assert found.panels == [f"i2c://1/0x3c?chip={guess}"]
+    assert f"its status is that of an {guess.upper()}, at a guess" in found.lines[0]
+    assert not any("noise" in line for line in found.lines)
+
+
+def test_where_nothing_can_be_read_the_symptoms_are_told(machine):
+    class WriteOnly(simulator.SSD1306):
+        def read(self, length):
+            raise OSError(121, "Remote I/O error")
+
+    machine[1] = ("bcm2835", simulator.I2CBus({0x3C: WriteOnly()}))
+    found = diagnostics.detect()
+    assert found.panels == ["i2c://1/0x3c"]
+    told = "\n".join(found.lines)
+    for advice in ("chip=sh1106", "size=128x32", "mirror_x=1", "internal_reference=1", "reset="):
+        assert advice in told
 
 
 def test_the_search_changes_nothing(machine):
@@ -77,7 +100,7 @@ def test_only_the_bus_that_is_named_is_searched(machine):
     for number in (1, 3):
         machine[number] = ("bus", simulator.I2CBus({0x3C: simulator.SSD1306()}))
     for url in ("i2c://3", "i2c://3/0x3c", "i2c:///dev/i2c-3/0x3c", "i2c:///dev/i2c-3"):
-        assert diagnostics.detect(url).panels == ["i2c://3/0x3c"]
+        assert diagnostics.detect(url).panels == ["i2c://3/0x3c?chip=ssd1306"]
     assert machine[1][1].messages == 0
 
 
@@ -87,7 +110,7 @@ def test_the_mainboards_own_bus_is_left_alone_unless_asked_for(machine):
     assert machine[0][1].messages == 0
     assert not found.panels
     assert "i2c://0" in found.lines[0]
-    assert diagnostics.detect("i2c://0").panels == ["i2c://0/0x3c"]
+    assert diagnostics.detect("i2c://0").panels == ["i2c://0/0x3c?chip=ssd1306"]
 
 
 @pytest.mark.parametrize(
@@ -109,7 +132,7 @@ def test_an_adapter_that_cannot_write_an_address_alone_is_read(machine, monkeypa
 
     monkeypatch.setattr(bus, "write_quick", refuse)
     machine[1] = ("bus", bus)
-    assert diagnostics.detect().panels == ["i2c://1/0x3c"]
+    assert diagnostics.detect().panels == ["i2c://1/0x3c?chip=ssd1306"]
 
 
 def test_a_bus_without_permission_does_not_hide_the_next(machine):
@@ -117,7 +140,7 @@ def test_a_bus_without_permission_does_not_hide_the_next(machine):
     machine[1] = ("bus", simulator.I2CBus({0x3C: simulator.SSD1306()}))
     found = diagnostics.detect()
     assert "group i2c" in found.lines[0]
-    assert found.panels == ["i2c://1/0x3c"]
+    assert found.panels == ["i2c://1/0x3c?chip=ssd1306"]
 
 
 def test_what_to_do_without_bus_and_without_panel(machine, capsys):
@@ -239,7 +262,7 @@ def test_what_is_not_installed_is_compiled_where_it_lies(monkeypatch):
         raise importlib.metadata.PackageNotFoundError(name)
 
     monkeypatch.setattr(importlib.metadata, "distribution", missing)
-    assert shlex.split(diagnostics.rebuild())[-2:] == ["--editable", str(Path(diagnostics.__file__).parent.parent)]
+    assert shlex.split(diagnostics.rebuild())[-2:] == ["--editable", str(Path(paneldraw.__file__).parent.parent)]
 
 
 def test_info_tells_an_interpreted_install_how_to_compile(monkeypatch):

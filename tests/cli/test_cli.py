@@ -13,8 +13,7 @@ import pytest
 from PIL import Image
 from running import ENVIRONMENT, assert_one_line_of_advice, lit, picture_of
 
-from paneldraw import playback
-from paneldraw.cli import main
+from paneldraw.cli import main, playback
 
 COMMANDS = ["demo", "show", "text", "detect", "info"]
 

@@ -12,13 +12,12 @@ from collections.abc import Callable
 from statistics import mean, median
 from typing import TYPE_CHECKING, Any, Final
 
-from . import urls
-from .errors import PanelNotFoundError, TransportError
+from paneldraw import urls
+from paneldraw.errors import PanelNotFoundError, TransportError
 
 if TYPE_CHECKING:
     from firmware_protocol import HelloReply, Status
-
-    from .transports import SerialTransport
+    from paneldraw.transports import SerialTransport
 
 _COLUMNS: Final = ("seconds", "trip ms", "damaged", "overflows", "line errors", "resent", "timeouts", "fault")
 
@@ -52,7 +51,7 @@ def add(commands: Any, count: Number, seconds: Number) -> None:
 
 
 def _ports(options: argparse.Namespace) -> int:
-    from . import diagnostics
+    from paneldraw.cli import diagnostics
 
     for line in diagnostics.serial_ports() or ["no serial port; plug a board in"]:
         print(line)
@@ -109,7 +108,7 @@ def _ping(options: argparse.Namespace) -> int:
 
 
 def _opened(options: argparse.Namespace) -> SerialTransport:
-    from .transports import SerialTransport
+    from paneldraw.transports import SerialTransport
 
     wanted = urls.serial(options.port) if options.port else _default()
     return SerialTransport(wanted.port, options.baudrate or wanted.baudrate)
@@ -117,7 +116,7 @@ def _opened(options: argparse.Namespace) -> SerialTransport:
 
 def _default() -> urls.SerialURL:
     """The port that the environment names, or the only one there is."""
-    from . import diagnostics
+    from paneldraw.cli import diagnostics
 
     with contextlib.suppress(ValueError):
         wanted = urls.parse(os.environ.get("PANELDRAW_PANEL", ""))

@@ -11,8 +11,7 @@ from far_ends import Board, EmulatedBoard, serial
 from running import assert_one_line_of_advice
 
 from firmware_protocol.device import UNO
-from paneldraw import diagnostics
-from paneldraw.cli import main
+from paneldraw.cli import diagnostics, main
 
 
 @pytest.fixture
