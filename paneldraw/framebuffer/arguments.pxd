@@ -54,4 +54,6 @@ cdef unsigned char *uint8s(object memory) except? NULL
 
 cdef long long _quick(object value, long long unit) noexcept
 cdef object _quick_rows(object source, Py_ssize_t columns, bint flat, long long unit)
-cdef bint _read(char *at, char kind, long long unit, long long *to) noexcept
+cdef bint _read(
+    char *at, Py_ssize_t step, Py_ssize_t count, char kind, long long unit, long long *to
+) noexcept

@@ -126,7 +126,6 @@ def _quick_rows(source, columns, flat, unit):
     what it is.
     """
     row: cython.Py_ssize_t
-    column: cython.Py_ssize_t
     if not cython.compiled or not PyObject_CheckBuffer(source):
         return None
     try:
@@ -153,10 +152,12 @@ def _quick_rows(source, columns, flat, unit):
         raise MemoryError
     numbers = bytearray(8 * columns * rows)
     to: cython.p_longlong = int64s(numbers)
+    if down == columns * across:
+        # Rows that lie one behind the other are one.
+        columns, rows = columns * rows, 1
     for row in range(rows):
-        for column in range(columns):
-            if not _read(start + row * down + column * across, kind, unit, to + row * columns + column):
-                return None
+        if not _read(start + row * down, across // view.itemsize, columns, kind, unit, to + row * columns):
+            return None
     return numbers
 
 
@@ -178,30 +179,66 @@ def _size_of(kind: cython.char) -> cython.Py_ssize_t:
     return cython.sizeof(cython.float) if kind == b"f" else 0
 
 
-def _read(at, kind, unit, to):
-    """Write the number at an address, of a kind that has a size; return whether it is within +-REACH."""
-    number: cython.longlong
+def _read(at, step, count, kind, unit, to):
+    """Write `count` numbers, each `step` numbers after the one before, of a kind that has a size.
+
+    Returns whether all are within +-REACH.
+    """
     if kind == b"q":
-        number = cython.cast(cython.p_longlong, at)[0]
-    elif kind == b"l":
-        number = cython.cast(cython.p_long, at)[0]
-    elif kind == b"i":
-        number = cython.cast(cython.p_int, at)[0]
-    elif kind == b"h":
-        number = cython.cast(cython.p_short, at)[0]
-    else:
-        exact: cython.double = (
-            cython.cast(cython.p_double, at)[0] if kind == b"d" else cython.cast(cython.p_float, at)[0]
-        )
+        return _read_wholes(cython.cast(cython.p_longlong, at), step, count, unit, to)
+    if kind == b"l":
+        return _read_wholes(cython.cast(cython.p_long, at), step, count, unit, to)
+    if kind == b"i":
+        return _read_wholes(cython.cast(cython.p_int, at), step, count, unit, to)
+    if kind == b"h":
+        return _read_wholes(cython.cast(cython.p_short, at), step, count, unit, to)
+    if kind == b"d":
+        return _read_floats(cython.cast(cython.p_double, at), step, count, unit, to)
+    return _read_floats(cython.cast(cython.p_float, at), step, count, unit, to)
+
+
+_Whole = cython.fused_type(cython.longlong, cython.long, cython.int, cython.short)
+_Float = cython.fused_type(cython.double, cython.float)
+
+
+@cython.cfunc
+@cython.exceptval(check=False)
+def _read_wholes(
+    at: cython.pointer[_Whole],
+    step: cython.Py_ssize_t,
+    count: cython.Py_ssize_t,
+    unit: cython.longlong,
+    to: cython.p_longlong,
+) -> cython.bint:
+    i: cython.Py_ssize_t
+    number: cython.longlong
+    reach: cython.longlong = _REACH
+    for i in range(count):
+        number = at[i * step]
+        if not -reach <= number <= reach:
+            return False
+        to[i] = number * unit
+    return True
+
+
+@cython.cfunc
+@cython.exceptval(check=False)
+def _read_floats(
+    at: cython.pointer[_Float],
+    step: cython.Py_ssize_t,
+    count: cython.Py_ssize_t,
+    unit: cython.longlong,
+    to: cython.p_longlong,
+) -> cython.bint:
+    i: cython.Py_ssize_t
+    number: cython.longlong
+    for i in range(count):
+        exact: cython.double = at[i * step]
         if not -_REACH <= exact <= _REACH:
             return False
         exact *= unit
         number = floored(exact)
-        to[0] = number + (exact - number >= 0.5)
-        return True
-    if not -_REACH <= number <= _REACH:
-        return False
-    to[0] = number * unit
+        to[i] = number + (exact - number >= 0.5)
     return True
 
 

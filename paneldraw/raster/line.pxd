@@ -10,9 +10,14 @@ cdef object polyline(
     long long phase, bint dda,
 )
 
-# A line as it is walked: along its longer axis, from its first pixel to its last; what a step adds to a pixel's index,
+# A line as it is walked: along its longer axis, x, from its first pixel to its last. What a step adds to a pixel's index,
 # and how many steps and moves to the side it has.
 cdef struct Walk:
+    long long x
+    long long y
+    bint steep
+    bint back
+    bint up
     Py_ssize_t index
     Py_ssize_t along
     Py_ssize_t across
@@ -22,9 +27,6 @@ cdef struct Walk:
     long long last
     long long moved
 
-cdef bint _begin(
-    Walk *walk, Surface surface, long long x1, long long y1, long long x2, long long y2, long long start, long long stop
-) noexcept nogil
-cdef void _bresenham(Surface surface, Walk *walk) noexcept nogil
+cdef bint _cut(Walk *walk, Surface surface, long long start, long long stop) noexcept nogil
 cdef void _dda(Surface surface, Walk *walk) noexcept nogil
 cdef void _walk(Surface surface, Walk *walk, bint dda) noexcept nogil

@@ -7,14 +7,10 @@ the shorter axis is lit. Coordinates are whole pixels within +-2**29.
 
 import cython
 from cython.cimports.paneldraw.raster.paint import once, painted
-from cython.cimports.paneldraw.raster.surface import CLEAR, OVER, Surface
+from cython.cimports.paneldraw.raster.surface import Surface, holds
 
 if not cython.compiled:
     Walk = type("Walk", (), {})
-
-
-# More steps than a line has.
-_ALL = cython.declare(cython.longlong, 1 << 40)
 
 
 def bresenham(surface, x1, y1, x2, y2):
@@ -23,40 +19,69 @@ def bresenham(surface, x1, y1, x2, y2):
     if not cython.compiled:
         walk = Walk()
     to: cython.pointer[Walk] = cython.address(walk) if cython.compiled else walk
-    if _begin(to, surface, x1, y1, x2, y2, 0, _ALL):
+    _begin(to, surface, x1, y1, x2, y2)
+    # A line that the window holds whole is not cut: many of them in one call take a fifth less time.
+    if (holds(surface, x1, y1) and holds(surface, x2, y2)) or _cut(to, surface, 0, to.dx + 1):
         _bresenham(surface, to)
 
 
-def _begin(walk, surface, x1, y1, x2, y2, start, stop):
-    """Find where a line enters the window and leaves it, of its pixels number `start` up to and without `stop`.
-
-    Pixels count from (x1, y1). Returns whether any can be seen.
-    """
+@cython.cfunc
+@cython.inline
+@cython.nogil
+@cython.exceptval(check=False)
+def _begin(
+    walk: cython.pointer[Walk],
+    surface: Surface,
+    x1: cython.longlong,
+    y1: cython.longlong,
+    x2: cython.longlong,
+    y2: cython.longlong,
+) -> cython.void:
+    """Set out on a whole line: along its longer axis, from the end with the smaller coordinate there."""
     dx: cython.longlong = x2 - x1
     dy: cython.longlong = y2 - y1
-    left: cython.longlong = surface.left
-    right: cython.longlong = surface.right
-    top: cython.longlong = surface.top
-    bottom: cython.longlong = surface.bottom
     walk.along = 1
     walk.across = surface.stride
+    walk.steep = abs(dx) < abs(dy)
     # From here on x is the longer axis.
-    if abs(dx) < abs(dy):
+    if walk.steep:
         x1, y1, dx, dy = y1, x1, dy, dx
-        left, right, top, bottom = top, bottom, left, right
         walk.along, walk.across = walk.across, walk.along
-    if dx < 0:
+    walk.back = dx < 0
+    if walk.back:
         x1, y1, dx, dy = x1 + dx, y1 + dy, -dx, -dy
-        start, stop = dx + 1 - stop, dx + 1 - start
+    walk.x = x1
+    walk.y = y1
     walk.index = x1 * walk.along + y1 * walk.across
-    # How many moves to the side lead into the window, and how many out of it.
-    low: cython.longlong = top - y1
-    high: cython.longlong = bottom - 1 - y1
-    if dy < 0:
-        dy, low, high = -dy, -high, -low
+    walk.up = dy < 0
+    if walk.up:
+        dy = -dy
         walk.across = -walk.across
-    first: cython.longlong = max(0, start, left - x1)
-    last: cython.longlong = min(dx, stop - 1, right - 1 - x1)
+    walk.dx = dx
+    walk.dy = dy
+    walk.first = 0
+    walk.last = dx
+    walk.moved = 0
+
+
+def _cut(walk, surface, start, stop):
+    """Cut a walk to its pixels number `start` up to and without `stop`, from (x1, y1) on, and of these to the window.
+
+    Returns whether any can be seen.
+    """
+    left: cython.longlong = surface.top if walk.steep else surface.left
+    right: cython.longlong = surface.bottom if walk.steep else surface.right
+    top: cython.longlong = surface.left if walk.steep else surface.top
+    bottom: cython.longlong = surface.right if walk.steep else surface.bottom
+    dx: cython.longlong = walk.dx
+    dy: cython.longlong = walk.dy
+    if walk.back:
+        start, stop = dx + 1 - stop, dx + 1 - start
+    # How many moves to the side lead into the window, and how many out of it.
+    low: cython.longlong = walk.y - bottom + 1 if walk.up else top - walk.y
+    high: cython.longlong = walk.y - top if walk.up else bottom - 1 - walk.y
+    first: cython.longlong = max(0, start, left - walk.x)
+    last: cython.longlong = min(dx, stop - 1, right - 1 - walk.x)
     if low > dy or high < 0:
         return False
     # The line moves to the side for the k-th time at the first step s with 2 s dy + dx >= 2 k dx.
@@ -66,23 +91,17 @@ def _begin(walk, surface, x1, y1, x2, y2, start, stop):
         last = min(last, ((2 * high + 1) * dx + 2 * dy - 1) // (2 * dy) - 1)
     if first > last:
         return False
-    walk.dx = dx
-    walk.dy = dy
     walk.first = first
     walk.last = last
     walk.moved = (2 * first * dy + dx) // (2 * dx) if first > 0 else 0
     return True
 
 
-def _walk(surface, walk, dda):
-    """Paint the pixels of a walk by one algorithm or the other."""
-    if dda:
-        _dda(surface, walk)
-    else:
-        _bresenham(surface, walk)
-
-
-def _bresenham(surface, walk):
+@cython.cfunc
+@cython.inline
+@cython.nogil
+@cython.exceptval(check=False)
+def _bresenham(surface: Surface, walk: cython.pointer[Walk]) -> cython.void:
     """The textbook's loop.
 
     The decision parameter p starts at 2 dy - dx; while it is negative the line goes straight on and p grows by 2 dy,
@@ -97,16 +116,23 @@ def _bresenham(surface, walk):
     both: cython.Py_ssize_t = walk.along + walk.across
     i: cython.Py_ssize_t = walk.index + walk.first * walk.along + walk.moved * walk.across
     pixels: cython.p_uchar = surface.pixels
-    level: cython.uchar = surface.becomes[0]
-    blind: cython.bint = surface.op == OVER or surface.op == CLEAR
+    becomes: cython.p_uchar = surface.becomes
     for _ in range(walk.last - walk.first + 1):
-        pixels[i] = level if blind else surface.becomes[pixels[i]]
+        pixels[i] = becomes[pixels[i]]
         if p < 0:
             p += straight
             i += along
         else:
             p += diagonal
             i += both
+
+
+def _walk(surface, walk, dda):
+    """Paint the pixels of a walk by one algorithm or the other."""
+    if dda:
+        _dda(surface, walk)
+    else:
+        _bresenham(surface, walk)
 
 
 def _dda(surface, walk):
@@ -141,7 +167,8 @@ def dashed(surface, x1, y1, x2, y2, pattern, count, phase, dda):
     if not cython.compiled:
         walk = Walk()
     to: cython.pointer[Walk] = cython.address(walk) if cython.compiled else walk
-    if not _begin(to, surface, x1, y1, x2, y2, 0, _ALL):
+    _begin(to, surface, x1, y1, x2, y2)
+    if not _cut(to, surface, 0, to.dx + 1):
         return
     if count == 0:
         _walk(surface, to, dda)
@@ -150,13 +177,12 @@ def dashed(surface, x1, y1, x2, y2, pattern, count, phase, dda):
     for k in range(count):
         period += pattern[k]
     # From the period in which the line enters the window, seen from (x1, y1), to the pixel where it leaves it.
-    back: cython.bint = x2 < x1 if abs(x2 - x1) >= abs(y2 - y1) else y2 < y1
-    first: cython.longlong = walk.dx - walk.last if back else walk.first
-    last: cython.longlong = walk.dx - walk.first if back else walk.last
+    first: cython.longlong = walk.dx - walk.last if walk.back else walk.first
+    last: cython.longlong = walk.dx - walk.first if walk.back else walk.last
     at: cython.longlong = first - (first + phase) % period
     while at <= last:
         for k in range(0, count, 2):
-            if _begin(to, surface, x1, y1, x2, y2, max(at, 0), at + pattern[k]):
+            if _cut(to, surface, max(at, 0), at + pattern[k]):
                 _walk(surface, to, dda)
             at += pattern[k] + pattern[k + 1]
 

@@ -18,3 +18,7 @@ cdef class Surface:
     cdef void paint_with(self, int level, int op) noexcept nogil
     cdef void point(self, long long x, long long y) noexcept nogil
     cdef void span(self, long long y, long long x1, long long x2) noexcept nogil
+
+# What surface.py tells of this one, inlined into the modules that ask.
+cdef inline bint holds(Surface surface, long long x, long long y) noexcept nogil:
+    return surface.left <= x < surface.right and surface.top <= y < surface.bottom

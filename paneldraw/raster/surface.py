@@ -6,6 +6,10 @@ from cython.cimports.libc.string import memset
 if not cython.compiled:
     OVER, XOR, ADD, MAX, CLEAR = range(5)
 
+    def holds(surface, x, y):
+        """Whether a pixel is in the window."""
+        return surface.left <= x < surface.right and surface.top <= y < surface.bottom
+
 #: How a level meets the level that a pixel has; `Surface.paint_with` takes the number.
 OPS = {"over": OVER, "xor": XOR, "add": ADD, "max": MAX, "clear": CLEAR}
 
@@ -67,7 +71,7 @@ class Surface:
     def point(self, x, y):
         """Paint one pixel, if it is in the window."""
         i: cython.longlong
-        if self.left <= x < self.right and self.top <= y < self.bottom:
+        if holds(self, x, y):
             i = y * self.stride + x
             self.pixels[i] = self.becomes[self.pixels[i]]
 
