@@ -214,3 +214,35 @@ def test_arrays_have_the_shape_of_a_picture(package, shape):
 def test_dithers_are_known(package, bad):
     with pytest.raises(ValueError, match=r'^dither must be None, "bayer" or "floyd-steinberg", not '):
         package.Framebuffer(4, 4).image(np.zeros((2, 2), np.uint8), dither=bad)
+
+
+@pytest.mark.parametrize("mode", ["1", "L"])
+@pytest.mark.parametrize("made", ["new", "over an array", "cut", "in pieces", "of a file", "empty"])
+def test_images_are_read_wherever_they_lie(package, mode, made, tmp_path):
+    """Pillow lends the bytes of an image that lies in one piece; of others they are copied out."""
+    gray = np.random.default_rng(3).integers(0, 2, (37, 50), np.uint8) * 255
+    image = Image.fromarray(gray > 0) if mode == "1" else Image.fromarray(gray)
+    if made == "new":
+        image = image.copy()
+    elif made == "cut":
+        image = image.crop((3, 5, 40, 30))
+    elif made == "in pieces":
+        before = Image.core.get_block_size()
+        Image.core.set_block_size(4096)
+        try:
+            image = image.resize((300, 37), Image.Resampling.NEAREST)
+        finally:
+            Image.core.set_block_size(before)
+    elif made == "of a file":
+        image.save(tmp_path / "picture.png")
+        image = Image.open(tmp_path / "picture.png")
+        assert image.mode == mode
+    elif made == "empty":
+        image = image.crop((3, 3, 3, 9))
+    for depth in DEPTHS:
+        fb = package.Framebuffer(60, 40, depth)
+        fb.image(image, 1, 2)
+        wanted = np.zeros((40, 60), np.uint8)
+        lit = np.asarray(image) > 0
+        wanted[2 : 2 + lit.shape[0], 1 : 1 + lit.shape[1]] = (lit * (2**depth - 1))[:38, :59]
+        assert (fb.pixels == wanted).all()

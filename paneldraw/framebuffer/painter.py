@@ -518,7 +518,7 @@ class Painter:
         left: cython.longlong = top_left("x", x)
         top: cython.longlong = top_left("y", y)
         levels: Picture = Picture.__new__(Picture)
-        if dither is None and levels.read(picture):
+        if dither is None and (levels.read(picture) or levels.read_arrow(pictures.arrow(picture))):
             paint_grays(self.surface, levels, left, top)
             return
         grays, alpha = pictures.to_gray(picture)

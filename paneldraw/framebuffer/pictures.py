@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import io
 import operator
 import os
@@ -56,6 +57,32 @@ def to_text(levels: Levels, depth: int) -> str:
         levels, depth = np.maximum(levels >> 4, levels > 0), 4
     digits = np.frombuffer(_DIGITS[depth].encode(), np.uint8)
     return "\n".join(row.tobytes().decode() for row in digits[np.minimum(levels, len(digits) - 1)])
+
+
+def arrow(picture: Any) -> tuple[object, int, int, bool] | None:
+    """Return the bytes of a Pillow image of grays or truths where they lie, which takes a tenth of copying them out.
+
+    A capsule with the array as Apache Arrow has them, the width, the height, and whether they are truths; None for all
+    that is no such image, or does not lie in one piece.
+    """
+    mode = getattr(picture, "mode", None)
+    if (mode != "L" and mode != "1") or not hasattr(picture, "getbands") or not _pillow_lends():
+        return None
+    picture.load()
+    if "transparency" in picture.info:
+        return None
+    try:
+        return (picture.im.__arrow_c_array__(), *picture.size, mode == "1")
+    except ValueError:
+        return None
+
+
+@functools.cache
+def _pillow_lends() -> bool:
+    """Whether Pillow tells apart which images lie in one piece; before 13 it did not."""
+    import PIL
+
+    return int(PIL.__version__.partition(".")[0]) >= 13
 
 
 def to_gray(picture: Any) -> tuple[Levels, Levels | None]:

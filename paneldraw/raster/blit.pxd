@@ -1,4 +1,15 @@
+from libc.stdint cimport int64_t
+
 from paneldraw.raster.surface cimport Surface
+
+# https://arrow.apache.org/docs/format/CDataInterface.html, as far as it is read here.
+cdef struct ArrowArray:
+    int64_t length
+    int64_t null_count
+    int64_t offset
+    int64_t n_buffers
+    int64_t n_children
+    const void **buffers
 
 cdef class Picture:
     cdef Py_buffer view
@@ -14,6 +25,7 @@ cdef class Picture:
 
     cdef bint read(self, object source) except? -1
     cdef bint _read_copy(self, object source) except? -1
+    cdef bint read_arrow(self, tuple lent) except? -1
     cdef object read_surface(self, Surface surface)
     cdef int highest(self) noexcept
     cdef object scale(self, int of, int to)

@@ -6,8 +6,12 @@ from typing import Any
 
 import cython
 from cython.cimports.cpython.buffer import PyBUF_RECORDS_RO, PyBuffer_Release, PyObject_CheckBuffer, PyObject_GetBuffer
+from cython.cimports.cpython.pycapsule import PyCapsule_GetPointer
 from cython.cimports.libc.string import memmove, memset
 from cython.cimports.paneldraw.raster.surface import Surface
+
+if not cython.compiled:
+    ArrowArray = type("ArrowArray", (), {})
 
 
 @cython.final
@@ -73,6 +77,25 @@ class Picture:
         self.height, self.width = view.shape
         self.down, self.across = self.width, 1
         self.truths = view.format == "?"
+        return True
+
+    def read_arrow(self, lent):
+        """Take the bytes or truths that an array of Apache Arrow's holds, row by row; return whether there was one.
+
+        `lent` is a capsule with the array, the width, the height, and whether its bytes are truths; or None.
+        """
+        if lent is None or not cython.compiled:
+            return False
+        capsule, self.width, self.height, self.truths = lent
+        array: cython.pointer[ArrowArray] = cython.cast(
+            cython.pointer[ArrowArray], PyCapsule_GetPointer(capsule, "arrow_array")
+        )
+        self.memory = capsule
+        # The first buffer says which are missing: none.
+        self.start = cython.cast(cython.p_uchar, array.buffers[1]) + array.offset
+        self.down = self.width
+        self.across = 1
+        self.mapped = False
         return True
 
     def read_surface(self, surface):
@@ -343,7 +366,7 @@ def paint_grays(surface, picture, x, y):
         pixels: cython.p_uchar = surface.pixels + picture.target
         for _ in range(picture.rows):
             for i in range(picture.count):
-                pixels[i] = _of_255(source[i] * top + 127)
+                pixels[i] = source[i] >> 7 if top == 1 else _of_255(source[i] * top + 127)
             source += picture.down
             pixels += surface.stride
 
