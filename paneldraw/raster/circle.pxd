@@ -30,3 +30,21 @@ cdef object sector(
     Surface surface, long long x, long long y, long long r,
     long long start_x, long long start_y, long long end_x, long long end_y, bint reflex, bint fill
 )
+
+cdef void _octants(
+    Surface surface, long long left, long long top, long long right, long long bottom, long long r, bint fill
+) noexcept nogil
+cdef void _quadrants(
+    Surface surface, long long left, long long top, long long right, long long bottom, long long a, long long b,
+    bint fill, int quadrants, Wedge wedge,
+) noexcept nogil
+cdef long long _half_width(long long a, long long b, long long odd, long long v, bint whole) noexcept nogil
+cdef void _part(
+    Surface surface, long long y, long long left, long long right, long long v, long long inner, long long outer,
+    int quadrants, Wedge wedge,
+) noexcept nogil
+cdef Wedge _wedge(
+    long long x, long long y, long long r, long long start_x, long long start_y, long long end_x, long long end_y,
+    bint reflex,
+)
+cdef void _radius(Surface surface, long long x, long long y, long long u, long long v) noexcept nogil

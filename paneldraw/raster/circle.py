@@ -19,7 +19,7 @@ from cython.cimports.libc.math import sqrt
 from cython.cimports.paneldraw.raster.floors import floored
 from cython.cimports.paneldraw.raster.line import bresenham
 from cython.cimports.paneldraw.raster.paint import once, painted
-from cython.cimports.paneldraw.raster.surface import Surface
+from cython.cimports.paneldraw.raster.surface import Surface, holds
 
 #: The length of the vectors that `arc` and `sector` take for angles.
 UNIT = 1 << 40
@@ -35,7 +35,7 @@ def circle(surface, x, y, r):
     elif r <= 1 + (x & 1):  # one pixel or four
         disc(surface, x, y, r)
     else:
-        _box(surface, x, y, x, y, r, False)
+        round_rect(surface, x, y, x, y, r, False)
 
 
 def disc(surface, x, y, r):
@@ -43,35 +43,17 @@ def disc(surface, x, y, r):
     if (x ^ y) & 1 or r == 0:
         ellipse(surface, x, y, r, r, True, 15)
     else:
-        _box(surface, x, y, x, y, r, True)
+        round_rect(surface, x, y, x, y, r, True)
 
 
 def round_rect(surface, left, top, right, bottom, r, fill):
     """The quarters of a circle around the corners of a box, and the straight sides between them.
 
-    The four corners are all on pixels or all halfway between them. The radius is at least 1 pixel; smaller ones make
-    sharp corners, which other functions draw.
+    The four corners are all on pixels or all halfway between them. The radius is at least 1 pixel, or any if it is
+    filled; smaller ones make sharp corners, which other functions draw.
     """
-    _box(surface, left, top, right, bottom, r, fill)
-
-
-@cython.cfunc
-@cython.inline
-@cython.nogil
-@cython.exceptval(check=False)
-def _box(
-    surface: Surface,
-    left: cython.longlong,
-    top: cython.longlong,
-    right: cython.longlong,
-    bottom: cython.longlong,
-    r: cython.longlong,
-    fill: cython.bint,
-) -> cython.void:
-    """The same for any radius, if it is filled. Not to call another function for it spares a small circle 3 %.
-
-    The walk by octants takes half the time of the one by quadrants, but walks all around.
-    """
+    row: cython.longlong
+    half: cython.longlong = left & 1
     if (
         left - r >= 2 * surface.right
         or right + r < 2 * surface.left
@@ -79,34 +61,23 @@ def _box(
         or bottom + r < 2 * surface.top
     ):
         return
-    if r > 2 * (surface.bottom - surface.top):
-        row: cython.longlong
-        half: cython.longlong = left & 1
-        for row in range(max(((top - half) >> 1) + 1, surface.top), min((bottom + half) >> 1, surface.bottom)):
-            _row(surface, row, left, right, 0 if fill else r, r, -r, r)
-        _quadrants(surface, left, top, right, bottom, r, r, fill, 15, None)
-    elif fill:
-        _octants_filled(surface, left, top, right, bottom, r)
-    else:
-        _octants(surface, left, top, right, bottom, r)
+    if r <= 2 * (surface.bottom - surface.top):
+        # The walk by octants takes half the time of the one by quadrants, but walks all around.
+        _octants(surface, left, top, right, bottom, r, fill)
+        return
+    for row in range(max(((top - half) >> 1) + 1, surface.top), min((bottom + half) >> 1, surface.bottom)):
+        _row(surface, row, left, right, 0 if fill else r, r, -r, r)
+    _quadrants(surface, left, top, right, bottom, r, r, fill, 15, None)
 
 
-@cython.cfunc
-@cython.nogil
-@cython.exceptval(check=False)
-def _octants(
-    surface: Surface,
-    left: cython.longlong,
-    top: cython.longlong,
-    right: cython.longlong,
-    bottom: cython.longlong,
-    r: cython.longlong,
-) -> cython.void:
-    """Walk the octant from the top to the diagonal, and paint its pixels in all eight.
+def _octants(surface, left, top, right, bottom, r, fill):
+    """Walk the octant from the top to the diagonal, and paint what it says of all eight.
 
     x and y count pixels, from the four that are nearest to the center: it may be between them. The decision parameter p
     is the circle's equation, a quarter of it, at the midpoint between the next two pixels. While it is negative, the
     midpoint is inside and y stays. Around a whole pixel it starts at the textbook's 1 - r.
+
+    Filled, a step is the end of a row in a side octant and, before y changes, of one in the top octant.
     """
     odd: cython.longlong = left & 1
     x: cython.longlong = 0
@@ -116,67 +87,21 @@ def _octants(
     top = (top - odd) >> 1
     right = (right + odd) >> 1
     bottom = (bottom + odd) >> 1
-    # Looking at each pixel whether it is in the window takes 1.7 times as long.
-    visible: cython.bint = (
-        left - y >= surface.left
-        and right + y < surface.right
-        and top - y >= surface.top
-        and bottom + y < surface.bottom
-    )
-    _sides(surface, left, top, right, bottom, y)
-    while True:
-        x += 1
-        if p < 0:
-            p += 2 * x + odd + 1
-        else:
-            y -= 1
-            p += 2 * (x - y) + 1
-        if x > y:
-            return
-        if visible:
-            _corners(surface, left - x, top - y, right + x, bottom + y)
-            if x < y:
-                _corners(surface, left - y, top - x, right + y, bottom + x)
-        else:
-            _clipped_corners(surface, left - x, top - y, right + x, bottom + y)
-            if x < y:
-                _clipped_corners(surface, left - y, top - x, right + y, bottom + x)
-
-
-@cython.cfunc
-@cython.nogil
-@cython.exceptval(check=False)
-def _octants_filled(
-    surface: Surface,
-    left: cython.longlong,
-    top: cython.longlong,
-    right: cython.longlong,
-    bottom: cython.longlong,
-    r: cython.longlong,
-) -> cython.void:
-    """The same walk: a step is the end of a row in a side octant; before y changes, of one in the top octant."""
-    odd: cython.longlong = left & 1
-    x: cython.longlong = 0
-    y: cython.longlong = (r - odd) >> 1
-    p: cython.longlong = ((odd + 2) * (odd + 2) + (2 * y + odd - 1) * (2 * y + odd - 1) - r * r) >> 2
-    row: cython.longlong
-    left = (left - odd) >> 1
-    top = (top - odd) >> 1
-    right = (right + odd) >> 1
-    bottom = (bottom + odd) >> 1
-    for row in range(max(top + 1, surface.top), min(bottom, surface.bottom)):
-        surface.span(row, left - y, right + y + 1)
+    visible: cython.bint = holds(surface, left - y, top - y) and holds(surface, right + y, bottom + y)
+    _sides(surface, left, top, right, bottom, y, fill)
     while x <= y:
-        surface.span(top - x, left - y, right + y + 1)
-        if x > 0 or top < bottom:
-            surface.span(bottom + x, left - y, right + y + 1)
+        if fill:
+            _rows(surface, left - y, top - x, right + y, bottom + x)
+        elif x > 0:
+            _corners(surface, visible, left - x, top - y, right + x, bottom + y)
+            if x < y:
+                _corners(surface, visible, left - y, top - x, right + y, bottom + x)
         x += 1
         if p < 0:
             p += 2 * x + odd + 1
         else:
-            if y >= x:
-                surface.span(top - y, left - x + 1, right + x)
-                surface.span(bottom + y, left - x + 1, right + x)
+            if fill and x <= y:
+                _rows(surface, left - x + 1, top - y, right + x - 1, bottom + y)
             y -= 1
             p += 2 * (x - y) + 1
 
@@ -192,9 +117,14 @@ def _sides(
     right: cython.longlong,
     bottom: cython.longlong,
     outward: cython.longlong,
+    fill: cython.bint,
 ) -> cython.void:
-    """Paint the four sides of a box, moved outward."""
+    """Paint the four sides of a box, moved outward; filled, the rows between the upper and the lower corners."""
     row: cython.longlong
+    if fill:
+        for row in range(max(top + 1, surface.top), min(bottom, surface.bottom)):
+            surface.span(row, left - outward, right + outward + 1)
+        return
     surface.span(top - outward, left, right + 1)
     surface.span(bottom + outward, left, right + 1)
     for row in range(max(top, surface.top), min(bottom + 1, surface.bottom)):
@@ -206,10 +136,34 @@ def _sides(
 @cython.inline
 @cython.nogil
 @cython.exceptval(check=False)
-def _corners(
+def _rows(
     surface: Surface, left: cython.longlong, top: cython.longlong, right: cython.longlong, bottom: cython.longlong
 ) -> cython.void:
-    """Paint the four corners of a box, all of them in the window."""
+    """Paint the first and the last row of a box."""
+    surface.span(top, left, right + 1)
+    if top < bottom:
+        surface.span(bottom, left, right + 1)
+
+
+@cython.cfunc
+@cython.inline
+@cython.nogil
+@cython.exceptval(check=False)
+def _corners(
+    surface: Surface,
+    visible: cython.bint,
+    left: cython.longlong,
+    top: cython.longlong,
+    right: cython.longlong,
+    bottom: cython.longlong,
+) -> cython.void:
+    """Paint the four corners of a box. Where all are known to be visible, that takes 0.6 of the time."""
+    if not visible:
+        surface.point(left, top)
+        surface.point(right, top)
+        surface.point(left, bottom)
+        surface.point(right, bottom)
+        return
     pixels: cython.p_uchar = surface.pixels
     becomes: cython.p_uchar = surface.becomes
     above: cython.Py_ssize_t = top * surface.stride
@@ -218,19 +172,6 @@ def _corners(
     pixels[above + right] = becomes[pixels[above + right]]
     pixels[below + left] = becomes[pixels[below + left]]
     pixels[below + right] = becomes[pixels[below + right]]
-
-
-@cython.cfunc
-@cython.inline
-@cython.nogil
-@cython.exceptval(check=False)
-def _clipped_corners(
-    surface: Surface, left: cython.longlong, top: cython.longlong, right: cython.longlong, bottom: cython.longlong
-) -> cython.void:
-    surface.point(left, top)
-    surface.point(right, top)
-    surface.point(left, bottom)
-    surface.point(right, bottom)
 
 
 # -- Ellipses, and what a choice of quadrants or an angle leaves of them
@@ -247,21 +188,7 @@ def ellipse(surface, x, y, a, b, fill, quadrants):
     _quadrants(surface, x, y, x, y, a, b, fill, quadrants, None)
 
 
-@cython.cfunc
-@cython.nogil
-@cython.exceptval(check=False)
-def _quadrants(
-    surface: Surface,
-    left: cython.longlong,
-    top: cython.longlong,
-    right: cython.longlong,
-    bottom: cython.longlong,
-    a: cython.longlong,
-    b: cython.longlong,
-    fill: cython.bint,
-    quadrants: cython.int,
-    wedge: Wedge | None,
-) -> cython.void:
+def _quadrants(surface, left, top, right, bottom, a, b, fill, quadrants, wedge):
     """Walk a quadrant of the ellipse from the top, (0, b), to the side, (a, 0), row by row, and paint all four.
 
     They lie around the corners of a box; some of them, or a wedge, are wanted of a single center only. Two decision
@@ -299,12 +226,7 @@ def _quadrants(
         q -= 4 * a * a * (v + 1)
 
 
-@cython.cfunc
-@cython.nogil
-@cython.exceptval(check=False)
-def _half_width(
-    a: cython.longlong, b: cython.longlong, odd: cython.longlong, v: cython.longlong, whole: cython.bint
-) -> cython.longlong:
+def _half_width(a, b, odd, v, whole):
     """How far the filled ellipse reaches in row `v`; -1 above its top.
 
     From a little before the end of the true one on, the decision parameters of `_quadrants` decide.
@@ -348,20 +270,7 @@ def _equation(a: cython.longlong, b: cython.longlong, u: cython.longlong, v: cyt
     return cython.cast(cython.longlong, bb * uu + aa * vv - aa * bb)
 
 
-@cython.cfunc
-@cython.nogil
-@cython.exceptval(check=False)
-def _part(
-    surface: Surface,
-    y: cython.longlong,
-    left: cython.longlong,
-    right: cython.longlong,
-    v: cython.longlong,
-    inner: cython.longlong,
-    outer: cython.longlong,
-    quadrants: cython.int,
-    wedge: Wedge | None,
-) -> cython.void:
+def _part(surface, y, left, right, v, inner, outer, quadrants, wedge):
     """Paint what is wanted of the pixels ``inner <= |u| <= outer`` of row `y`, which is at `v`."""
     on_left: cython.bint
     on_right: cython.bint
@@ -498,17 +407,7 @@ def _floor_quotient(number: cython.longlong, divisor: cython.longlong) -> cython
     return number // divisor if number >= 0 else -((divisor - 1 - number) // divisor)
 
 
-@cython.cfunc
-def _wedge(
-    x: cython.longlong,
-    y: cython.longlong,
-    r: cython.longlong,
-    start_x: cython.longlong,
-    start_y: cython.longlong,
-    end_x: cython.longlong,
-    end_y: cython.longlong,
-    reflex: cython.bint,
-) -> Wedge:
+def _wedge(x, y, r, start_x, start_y, end_x, end_y, reflex):
     """The wedge between two directions; where these are nearly opposite, its pixels say whether it is reflex."""
     wedge: Wedge = Wedge()
     wedge.aim(False, x, y, r, start_x, start_y)
@@ -556,12 +455,7 @@ def sector(surface, x, y, r, start_x, start_y, end_x, end_y, reflex, fill):
     painted(surface, marks, (y - r) >> 1, ((y + r) >> 1) + 1)
 
 
-@cython.cfunc
-@cython.nogil
-@cython.exceptval(check=False)
-def _radius(
-    surface: Surface, x: cython.longlong, y: cython.longlong, u: cython.longlong, v: cython.longlong
-) -> cython.void:
+def _radius(surface, x, y, u, v):
     """The line to (u, v) from the pixel at the center; of those equally near, from the one in that direction."""
     column: cython.longlong = (x + (x & 1 if u > 0 else 0)) >> 1
     row: cython.longlong = (y + (y & 1 if v > 0 else 0)) >> 1

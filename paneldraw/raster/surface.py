@@ -10,6 +10,7 @@ if not cython.compiled:
         """Whether a pixel is in the window."""
         return surface.left <= x < surface.right and surface.top <= y < surface.bottom
 
+
 #: How a level meets the level that a pixel has; `Surface.paint_with` takes the number.
 OPS = {"over": OVER, "xor": XOR, "add": ADD, "max": MAX, "clear": CLEAR}
 
