@@ -56,7 +56,9 @@ cdef class Painter:
     cdef bint _add_piece(
         self, long long *values, Py_ssize_t count, bint closed, Style style, double distance, bint alone
     ) except -1
-    cdef object _add_stroke(self, double *points, Py_ssize_t count, bint closed, Style style, double distance)
+    cdef object _add_stroke(
+        self, double *points, Py_ssize_t count, bint closed, Style style, double distance, tuple circle
+    )
     cdef object _fill_contours(self, Style style, bint nonzero)
     cdef object _fill(
         self, Surface surface, long long *points, Py_ssize_t count, bint nonzero, object antialias
@@ -68,7 +70,7 @@ cdef class Painter:
         bint fill, Part part, Style style,
     )
     cdef object _thin_arc(self, long long cx, long long cy, long long radius, object start, object swept, Style style)
-    cdef object _dashed_arc(self, object memory, bint closed, Style style)
+    cdef object _dashed_arc(self, object memory, tuple circle, bint closed, Style style)
 
     cdef object _far_line(self, object ends, Style style, bint dda)
     cdef object _far_thin_path(self, Surface surface, object points, bint closed, object dash, bint dda)

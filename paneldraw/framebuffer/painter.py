@@ -310,13 +310,13 @@ class Painter:
         whole_dash = style.dash is None or is_endless(points, number, closed, style.dash[0])
         if alone and number <= 2 and whole_dash and style.cap != _ROUND and style.width <= _WIDEST:
             return False
-        self._add_stroke(points, number, closed, style, distance)
+        self._add_stroke(points, number, closed, style, distance, None)
         return True
 
-    def _add_stroke(self, points, count, closed, style, distance):
-        """Add the contours of a path's stroke. Behind its points there is room for another."""
+    def _add_stroke(self, points, count, closed, style, distance, circle):
+        """Add the contours of a path's stroke, or of a circle's. Behind its points there is room for another."""
         pixels: cython.Py_ssize_t = max(self.surface.width, self.surface.height)
-        stroke: Stroke = Stroke(self.contours, style.width, style.join, pixels)
+        stroke: Stroke = Stroke(self.contours, style.width, style.join, pixels, circle)
         cap: cython.int = _BUTT if closed and style.cap == _SQUARE else style.cap
         if style.dash is None or count == 1 or (distance == 0 and is_endless(points, count, closed, style.dash[0])):
             stroke.path(points, count, closed, cap, cap)
@@ -325,7 +325,7 @@ class Painter:
             points[2 * count] = points[0]
             points[2 * count + 1] = points[1]
             count += 1
-        stroke.dashes(points, count, cap, style.dash, distance)
+        stroke.dashes(points, count, closed, cap, style.dash, distance)
 
     def _fill_contours(self, style, nonzero):
         """Fill the contours that are collected."""
@@ -462,7 +462,7 @@ class Painter:
             self._thin_arc(cx, cy, radius, start, swept, style)
         elif style.dash is not None:
             memory = arc_path(cx, cy, radius, start, swept)
-            self._dashed_arc(memory, swept >= 360, style)
+            self._dashed_arc(memory, (cx, cy, radius), swept >= 360, style)
         else:
             begin, stop = direction(start, UNIT), direction(end, UNIT)
             part = Part(0, begin, stop, is_reflex(begin, stop, swept), False, style.cap)
@@ -480,12 +480,12 @@ class Painter:
                 arc(marks, cx, cy, radius, sx, sy, ex, ey, turned > 180)
         painted(self.surface, marks, self.surface.top, self.surface.bottom)
 
-    def _dashed_arc(self, memory, closed, style):
+    def _dashed_arc(self, memory, circle, closed, style):
         """Draw the dashed stroke along the points of an arc or circle."""
         points: cython.p_double = doubles(memory, 0)
         count: cython.Py_ssize_t = len(memory) // 16 - 1
         self.contours.begin()
-        self._add_stroke(points, count, closed, style, 0)
+        self._add_stroke(points, count, closed, style, 0, circle)
         self._fill_contours(style, True)
 
     # -- Text and pictures

@@ -110,12 +110,18 @@ class Contours:
 @cython.final
 @cython.cclass
 class Stroke:
-    """Adds the pieces of strokes of one width and join to contours, exact in a square of `pixels` from (0, 0) on."""
+    """Adds the pieces of strokes of one width and join to contours, exact in a square of `pixels` from (0, 0) on.
 
-    def __init__(self, contours: Contours, width, join, pixels):
+    Arcs of a circle, which is given by its center and radius, end along its radii; other paths end square.
+    """
+
+    def __init__(self, contours: Contours, width, join, pixels, circle):
         self.contours = contours
         self.half = width / 2
         self.join = join
+        self.x, self.y, self.radius = circle or (0, 0, 0)
+        # Beyond the center radii have crossed each other.
+        self.around = circle is not None and self.half <= self.radius
         self.low = -_MARGIN
         self.high = 256 * pixels + _MARGIN
 
@@ -126,7 +132,7 @@ class Stroke:
         """
         i: cython.Py_ssize_t
         j: cython.Py_ssize_t
-        corners: cython.Py_ssize_t = count if closed else count - 1
+        segments: cython.Py_ssize_t = count if closed else count - 1
         # The unit vectors along the present segment and the one before it.
         ux: cython.double = 1
         uy: cython.double = 0
@@ -134,42 +140,46 @@ class Stroke:
             self._cap(points[0], points[1], -1, 0, cap)
             self._cap(points[0], points[1], 1, 0, end_cap)
             return
-        for i in range(corners + closed):
+        for i in range(segments + closed):
             j = 2 * ((i + 1) % count)
             x1: cython.double = points[2 * (i % count)]
             y1: cython.double = points[2 * (i % count) + 1]
+            x2: cython.double = points[j]
+            y2: cython.double = points[j + 1]
             vx: cython.double = ux
             vy: cython.double = uy
-            length: cython.double = sqrt((points[j] - x1) ** 2 + (points[j + 1] - y1) ** 2)
-            ux = (points[j] - x1) / length
-            uy = (points[j + 1] - y1) / length
+            ux, uy = _unit_vector(points, i % count, j // 2)
             if i > 0:
                 self._corner(x1, y1, vx, vy, ux, uy)
-            elif not closed:
-                self._cap(x1, y1, -ux, -uy, cap)
-            if i < corners:
-                self._segment(x1, y1, points[j], points[j + 1], ux, uy)
-        if not closed:
-            self._cap(points[2 * count - 2], points[2 * count - 1], ux, uy, end_cap)
+            if i < segments:
+                start: tuple[cython.double, cython.double] = self._direction(x1, y1, ux, uy)
+                end: tuple[cython.double, cython.double] = self._direction(x2, y2, ux, uy)
+                self._segment(x1, y1, x2, y2, start, end)
+                if not closed and i == 0:
+                    self._cap(x1, y1, -start[0], -start[1], cap)
+                if not closed and i == segments - 1:
+                    self._cap(x2, y2, end[0], end[1], end_cap)
 
-    def _segment(self, x1, y1, x2, y2, ux, uy):
-        """Add the rectangle around a segment in the direction (ux, uy)."""
-        ux *= self.half
-        uy *= self.half
-        self.contours.add(x1 - uy, y1 + ux)
-        self.contours.add(x1 + uy, y1 - ux)
-        self.contours.add(x2 + uy, y2 - ux)
-        self.contours.add(x2 - uy, y2 + ux)
+    def _direction(self, x, y, ux, uy):
+        """The direction of a path at a point of a segment: that of the segment, or along the circle there."""
+        return ((self.y - y) / self.radius, (x - self.x) / self.radius) if self.around else (ux, uy)
+
+    def _segment(self, x1, y1, x2, y2, start, end):
+        """Add what is around a segment between its ends, which lie square to the directions `start` and `end`."""
+        half: cython.double = self.half
+        self.contours.add(x1 - start[1] * half, y1 + start[0] * half)
+        self.contours.add(x1 + start[1] * half, y1 - start[0] * half)
+        self.contours.add(x2 + end[1] * half, y2 - end[0] * half)
+        self.contours.add(x2 - end[1] * half, y2 + end[0] * half)
         self.contours.close()
 
     def _cap(self, x, y, ux, uy, cap):
         """Add what a cap adds beyond an end point, in the direction (ux, uy)."""
+        half: cython.double = self.half
         if cap == _SQUARE:
-            self._segment(x, y, x + ux * self.half, y + uy * self.half, ux, uy)
+            self._segment(x, y, x + ux * half, y + uy * half, (ux, uy), (ux, uy))
         elif cap == _ROUND:
-            ux *= self.half
-            uy *= self.half
-            self._fan(x, y, uy, -ux, -uy, ux, _PI)
+            self._arc(x, y, uy * half, -ux * half, -uy * half, ux * half, _PI)
 
     def _corner(self, x, y, vx, vy, ux, uy):
         """Fill the wedge on the outer side of a corner, where direction v turns into direction u."""
@@ -177,16 +187,16 @@ class Stroke:
         dot: cython.double = vx * ux + vy * uy
         outer: cython.double = self.half if cross > 0 else -self.half
         contours: Contours = self.contours
-        if cross == 0 and dot > 0:
+        if self.around or (cross == 0 and dot > 0):
             return
         vx, vy, ux, uy = vx * outer, vy * outer, ux * outer, uy * outer
+        contours.add(x, y)
         if self.join == 1:
             if cross > 0:
-                self._fan(x, y, vy, -vx, uy, -ux, atan2(abs(cross), dot))
+                self._arc(x, y, vy, -vx, uy, -ux, atan2(abs(cross), dot))
             else:
-                self._fan(x, y, uy, -ux, vy, -vx, atan2(abs(cross), dot))
+                self._arc(x, y, uy, -ux, vy, -vx, atan2(abs(cross), dot))
             return
-        contours.add(x, y)
         contours.add(x + vy, y - vx)
         # The miter is 1 / cos(angle / 2) half widths long; up to 4 of them it is drawn.
         if self.join == 0 and 8 * (1 + dot) >= 1:
@@ -194,10 +204,10 @@ class Stroke:
         contours.add(x + uy, y - ux)
         contours.close()
 
-    def _fan(self, x, y, dx, dy, ex, ey, angle):
-        """Add a circular sector from (x + dx, y + dy) clockwise to (x + ex, y + ey).
+    def _arc(self, x, y, dx, dy, ex, ey, angle):
+        """End a contour with the arc around (x, y) from (x + dx, y + dy) clockwise to (x + ex, y + ey).
 
-        Its arc is within a quarter of a 256th where it can be seen.
+        It is within a quarter of a 256th where it can be seen.
         """
         i: cython.longlong = 0
         jump: cython.longlong
@@ -206,7 +216,6 @@ class Stroke:
         contours: Contours = self.contours
         if radius > 2 * _FLAT:
             steps = int(ceil(angle / (2 * acos(max(0.5, 1 - _FLAT / radius)))))
-        contours.add(x, y)
         while i < steps:
             px, py = _turned(x, y, dx, dy, angle * i / steps)
             contours.add(px, py)
@@ -233,9 +242,8 @@ class Stroke:
 
     def _seen(self, points, i, cap):
         """Between which distances from point i the dashes of its segment, and caps that end them, can be seen."""
-        length: cython.double = _length(points, i)
-        ux: cython.double = (points[2 * i + 2] - points[2 * i]) / length
-        uy: cython.double = (points[2 * i + 3] - points[2 * i + 1]) / length
+        length: cython.double = _length(points, i, i + 1)
+        ux, uy = _unit_vector(points, i, i + 1)
         x: cython.double = (self.low + self.high) / 2 - points[2 * i]
         y: cython.double = (self.low + self.high) / 2 - points[2 * i + 1]
         reach: cython.double = (self.high - self.low) / 2 * (abs(ux) + abs(uy))
@@ -254,68 +262,107 @@ class Stroke:
         farthest: cython.double = self.half - (self.high - self.low) * 0.75
         return farthest > 0 and (x - middle) ** 2 + (y - middle) ** 2 < farthest**2
 
-    def dashes(self, points, count, cap, dash, distance):
-        """Add the strokes of the pieces of an open path that a dash pattern shows.
+    def dashes(self, points, count, closed, cap, dash, distance):
+        """Add the strokes of the pieces of a path that a dash pattern shows, back to its first point if it is closed.
 
         The pattern, alternately a length that is drawn and one that is left out, goes on around corners; the path
         begins at `distance` within it. A round cap ends every piece, a square one the path. Between corners pieces
         that cannot be seen are left out.
         """
+        whole: cython.double = _whole_length(points, count) + distance
         if cap == _ROUND and max(dash[1::2]) ** 2 < 8 * _FLAT * self.half:
             # The caps close every gap.
-            dash = [_last_end(_whole_length(points, count) + distance, dash), _ENDLESS]
-        i: cython.Py_ssize_t = 0
-        k: cython.Py_ssize_t
-        period: cython.double = sum(dash)
+            dash = [_last_end(whole, dash), _ENDLESS]
+        way: Way = Way()
+        way.begin(points, count)
         inner: cython.int = _ROUND if cap == _ROUND else _BUTT
-        starts: list = [0.0, *_running_sum(dash)]
-        pairs: cython.Py_ssize_t = len(dash) // 2
-        piece = bytearray(16 * (count + 2))
-        to: cython.p_double = doubles(piece, 0)
-        # The segment from point i on reaches from `passed` to `ahead` along the path; its visible part is in between.
-        passed: cython.double = 0
-        ahead: cython.double = _length(points, 0)
-        turn: cython.double = floor(distance / period)
-        number: cython.Py_ssize_t = 0
+        first_cap: cython.int = cap if distance == 0 else inner
+        last_cap: cython.int = cap
+        if closed and distance == 0 and _last_end(whole, dash) >= whole:
+            # The last piece goes on into the first one.
+            vx, vy = _unit_vector(points, count - 2, count - 1)
+            ux, uy = _unit_vector(points, 0, 1)
+            self._corner(points[0], points[1], vx, vy, ux, uy)
+            first_cap = last_cap = _BUTT
+        stops: list = [0.0, *_running_sum(dash)]
+        period: cython.double = sum(dash)
+        pairs: cython.longlong = len(dash) // 2
+        number: cython.longlong = 0
         while True:
-            start: cython.double = turn * period + cython.cast(cython.double, starts[2 * number]) - distance
-            end: cython.double = turn * period + cython.cast(cython.double, starts[2 * number + 1]) - distance
+            k: cython.Py_ssize_t = 2 * (number % pairs)
+            before: cython.double = cython.cast(cython.double, number // pairs) * period - distance
+            start: cython.double = before + cython.cast(cython.double, stops[k])
+            end: cython.double = before + cython.cast(cython.double, stops[k + 1])
             number += 1
-            if number == pairs:
-                number = 0
-                turn += 1
             if end <= 0:
                 continue
-            while start >= ahead and i < count - 2:
-                i += 1
-                passed = ahead
-                ahead += _length(points, i)
-            if start >= ahead:
+            if not way.reach(start):
                 return
-            low, high = self._seen(points, i, cap)
-            skip: cython.double = ahead if passed + high <= start else passed + low
-            if start > 0 and end < min(skip, ahead) and number == 0:
-                # Not as far as the end of what cannot be seen, so that no piece that reaches into view is lost.
-                turn += max(floor((min(skip, ahead) - end) / period) - 1, 0)
-                continue
-            _at(points, i, max(start, 0) - passed, to)
-            if cap == _ROUND and self._covers_all(to[0], to[1]):
-                self.path(to, 1, False, cap, cap)
+            if start > 0 and number % pairs == 0:
+                unseen: cython.longlong = self._unseen(way, start, end, cap, period)
+                if unseen:
+                    number += pairs * (unseen - 1)
+                    continue
+            count = way.piece(max(start, 0), end)
+            if cap == _ROUND and self._covers_all(way.cut[0], way.cut[1]):
+                self.path(way.cut, 1, False, cap, cap)
                 return
-            k = 1
-            while end > ahead and i < count - 2:
-                i += 1
-                passed = ahead
-                ahead += _length(points, i)
-                to[2 * k] = points[2 * i]
-                to[2 * k + 1] = points[2 * i + 1]
-                k += 1
-            _at(points, i, min(end, ahead) - passed, doubles(piece, 2 * k))
-            # Where the piece ends at a corner, it may stand there twice.
-            k += to[2 * k] != to[2 * k - 2] or to[2 * k + 1] != to[2 * k - 1]
-            if k > 1:
-                last: cython.bint = i == count - 2 and end >= ahead
-                self.path(to, k, False, cap if start <= 0 and distance == 0 else inner, cap if last else inner)
+            if count > 1:
+                self.path(way.cut, count, False, first_cap if start <= 0 else inner, last_cap if way.ended else inner)
+
+    def _unseen(self, way, start, end, cap, period):
+        """How many periods, from a dash on, show nothing on a way's present segment; fewer by one, or 0 of none.
+
+        So no piece that reaches into view is lost.
+        """
+        low, high = self._seen(way.points, way.i, cap)
+        skip: cython.double = way.ahead if way.passed + high <= start else min(way.passed + low, way.ahead)
+        return cython.cast(cython.longlong, max(floor((skip - end) / period), 1)) if end < skip else 0
+
+
+@cython.final
+@cython.cclass
+class Way:
+    """A place that moves on along a path: on the segment from point i on, from `passed` to `ahead` along the path.
+
+    `cut` is the last piece that was cut out, and `ended` whether the path ended with it.
+    """
+
+    def begin(self, points, count):
+        """Begin at the first point of a path."""
+        self.points = points
+        self.count = count
+        self.i = 0
+        self.passed = 0
+        self.ahead = _length(points, 0, 1)
+        self.memory = bytearray(16 * (count + 2))
+        self.cut = doubles(self.memory, 0)
+
+    def reach(self, distance):
+        """Move on to the segment that holds a distance; return whether the path is as long."""
+        while distance >= self.ahead and self.i < self.count - 2:
+            self._move()
+        return distance < self.ahead
+
+    def _move(self):
+        self.i += 1
+        self.passed = self.ahead
+        self.ahead += _length(self.points, self.i, self.i + 1)
+
+    def piece(self, start, end):
+        """Cut out the piece from `start`, on the present segment, to `end`; return how many points it has."""
+        k: cython.Py_ssize_t = 1
+        cut: cython.p_double = self.cut
+        _at(self.points, self.i, start - self.passed, cut)
+        while end > self.ahead and self.i < self.count - 2:
+            self._move()
+            cut[2 * k] = self.points[2 * self.i]
+            cut[2 * k + 1] = self.points[2 * self.i + 1]
+            k += 1
+        _at(self.points, self.i, min(end, self.ahead) - self.passed, doubles(self.memory, 2 * k))
+        self.ended = self.i == self.count - 2 and end >= self.ahead
+        # Where the piece ends at a corner, it may stand there twice.
+        return k + (cut[2 * k] != cut[2 * k - 2] or cut[2 * k + 1] != cut[2 * k - 1])
 
 
 def doubles(memory, first):
@@ -339,10 +386,9 @@ def distinct(values, count, points):
 
 def is_endless(points, count, closed, dash):
     """Whether a dash is as long as a whole path, to which it then does nothing."""
-    i: cython.Py_ssize_t = 2 * count - 2
     whole: cython.double = _whole_length(points, count)
     if closed:
-        whole += sqrt((points[0] - points[i]) ** 2 + (points[1] - points[i + 1]) ** 2)
+        whole += _length(points, count - 1, 0)
     return dash >= whole
 
 
@@ -367,9 +413,19 @@ def arc_path(x, y, radius, start, swept):
     return memory
 
 
-def _length(points, i):
-    """How far it is from point i to the next."""
-    return sqrt((points[2 * i + 2] - points[2 * i]) ** 2 + (points[2 * i + 3] - points[2 * i + 1]) ** 2)
+def _length(points, i, j):
+    """How far it is from point i to point j."""
+    return sqrt((points[2 * j] - points[2 * i]) ** 2 + (points[2 * j + 1] - points[2 * i + 1]) ** 2)
+
+
+@cython.cfunc
+@cython.inline
+def _unit_vector(
+    points: cython.p_double, i: cython.Py_ssize_t, j: cython.Py_ssize_t
+) -> tuple[cython.double, cython.double]:
+    """The direction from point i to point j."""
+    length: cython.double = _length(points, i, j)
+    return (points[2 * j] - points[2 * i]) / length, (points[2 * j + 1] - points[2 * i + 1]) / length
 
 
 @cython.cfunc
@@ -378,7 +434,7 @@ def _whole_length(points: cython.p_double, count: cython.Py_ssize_t) -> cython.d
     i: cython.Py_ssize_t
     whole: cython.double = 0
     for i in range(count - 1):
-        whole += _length(points, i)
+        whole += _length(points, i, i + 1)
     return whole
 
 
@@ -406,7 +462,7 @@ def _turned(
 @cython.cfunc
 def _at(points: cython.p_double, i: cython.Py_ssize_t, distance: cython.double, to: cython.p_double):
     """Write the point at a distance from point i toward the next."""
-    share: cython.double = distance / _length(points, i)
+    share: cython.double = distance / _length(points, i, i + 1)
     to[0] = points[2 * i] + (points[2 * i + 2] - points[2 * i]) * share
     to[1] = points[2 * i + 1] + (points[2 * i + 3] - points[2 * i + 1]) * share
 

@@ -178,14 +178,15 @@ def _corner(point, v, u, half, join):
 def dashed_stroke(points, width, dash, join="miter", cap="square", closed=False):
     """The strokes along those parts of a path that a pattern shows.
 
-    A round cap ends every dash, a square one the path, beyond the pattern; a closed path has no ends.
-    A first dash as long as the path does nothing to it.
+    A round cap ends every dash, a square one the path, beyond the pattern. A closed path has no ends: a dash that leads
+    back to the start goes on into the first one. A first dash as long as the path does nothing to it.
 
     Returns the pieces, and how near a dash's end comes to a corner at the least.
     """
     points = [point for i, point in enumerate(points) if i == 0 or point != points[i - 1]]
     inner = "round" if cap == "round" else "butt"
-    if closed and len(points) > 2:
+    closed = closed and len(points) > 2
+    if closed:
         points += points[:1] if points[0] != points[-1] else []
         cap = inner
     lengths = [hypot(b[0] - a[0], b[1] - a[1]) for a, b in pairwise(points)]
@@ -194,6 +195,9 @@ def dashed_stroke(points, width, dash, join="miter", cap="square", closed=False)
         return stroke(points, width, join, cap, closed), dash[0] - stops[-1]
     pattern = list(dash) if len(dash) % 2 == 0 else [*dash, *dash]
     pieces, nearest_end, start, i = [], np.inf, 0.0, 0
+    if closed and _is_shown(stops[-1], pattern):
+        pieces += _corner(points[0], _unit(*points[-2:]), _unit(*points[:2]), width / 2, join)
+        cap = "butt"
     while start < stops[-1]:
         end = start + pattern[i % len(pattern)]
         nearest_end = min([nearest_end, *(abs(end - stop) for stop in stops)])
@@ -205,6 +209,12 @@ def dashed_stroke(points, width, dash, join="miter", cap="square", closed=False)
             pieces += stroke(part, width, join, caps[0], False, caps[1])
         start, i = end, i + 1
     return pieces, nearest_end
+
+
+def _is_shown(length, pattern):
+    """Whether a dash, not a gap, leads to this length."""
+    rest = length % sum(pattern)
+    return any(sum(pattern[:i]) < rest <= sum(pattern[: i + 1]) for i in range(0, len(pattern), 2))
 
 
 def _at(points, stops, length):

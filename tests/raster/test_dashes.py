@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from itertools import pairwise
-from math import ceil
+from math import ceil, degrees
 
 import definitions
 import numpy as np
@@ -183,6 +183,40 @@ def test_dashes_as_a_picture(package):
         .............#......
         """,
     )
+
+
+def test_a_closed_path_has_no_notch_where_it_begins(package):
+    """Its last dash goes on into the first one, if there is no gap between them."""
+    fb = package.Framebuffer(28, 9)
+    fb.rect(2, 2, 9, 5, width=3, dash=(5, 3))
+    fb.rect(16, 2, 9, 5, width=3, dash=(5, 2))
+    assert_pattern(
+        fb,
+        """
+        ............................
+        ..#####........######..###..
+        ..#####..###...######..###..
+        ..#####..###...######..###..
+        .........###...###.....###..
+        .#####...###.....#####.###..
+        .#####...###.....#####......
+        .#####...###.....#####......
+        ............................
+        """,
+    )
+
+
+@pytest.mark.parametrize("cap", ["butt", "round"])
+@pytest.mark.parametrize(("r", "width", "length"), [(20, 30, 13), (20, 38, 7), (12, 20, 9.5), (25, 40, 30), (8, 14, 5)])
+def test_dashes_of_a_circle_end_along_its_radii(package, r, width, length, cap):
+    """Each is the arc of its angles."""
+    dashed, whole = (package.Framebuffer(96, 96, depth=8) for _ in range(2))
+    style = {"width": width, "cap": cap, "antialias": package.Supersample(8)}
+    dashed.arc(47, 48, r, 17, 360, 64, dash=(length, 1000), **style)
+    whole.arc(47, 48, r, 17, 17 + degrees(length / r), 64, **style)
+    differences = np.abs(dashed.pixels.astype(int) - whole.pixels)
+    assert differences.max() <= 3
+    assert differences.sum() <= whole.pixels.astype(int).sum() / 1000
 
 
 # -- The digital differential analyzer
