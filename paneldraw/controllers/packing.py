@@ -1,5 +1,3 @@
-# cython: language_level=3, boundscheck=False, wraparound=False, cdivision=True
-# cython: infer_types=True, binding=False
 """Levels, one byte a pixel, to the bytes that a panel's RAM takes. One function a packing, none a chip."""
 
 from __future__ import annotations

@@ -653,7 +653,7 @@ class Painter:
             grown = clip.rounded_box(x, y, x, y, a + beyond, b + beyond)
             self._far_shape(clip.rounded_box(x, y, x, y, a, b), grown, True, fill, style)
             return
-        sides = ((1, (0, -1), (1, 0)), (2, (-1, 0), (0, -1)), (4, (0, 1), (-1, 0)), (8, (1, 0), (0, 1)))
+        sides: tuple = ((1, (0, -1), (1, 0)), (2, (-1, 0), (0, -1)), (4, (0, 1), (-1, 0)), (8, (1, 0), (0, 1)))
         for bit, start, end in sides:
             if quadrants & bit:
                 outline = clip.arc(x, y, a, b, start, end)

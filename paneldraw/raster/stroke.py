@@ -119,7 +119,9 @@ class Stroke:
         self.contours = contours
         self.half = width / 2
         self.join = join
-        self.x, self.y, self.radius = circle or (0, 0, 0)
+        self.x = self.y = self.radius = 0.0
+        if circle is not None:
+            self.x, self.y, self.radius = circle
         # Beyond the center radii have crossed each other.
         self.around = circle is not None and self.half <= self.radius
         self.low = -_MARGIN

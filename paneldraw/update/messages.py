@@ -1,5 +1,3 @@
-# cython: language_level=3, boundscheck=False, wraparound=False, cdivision=True
-# cython: infer_types=True, auto_pickle=False
 """The messages of a plan, and what they leave in the chip's addressing registers.
 
 A cell is what one address of the chip's RAM holds, a row a page of cells where the chip has pages. Columns and rows

@@ -1,5 +1,3 @@
-# cython: language_level=3, boundscheck=False, wraparound=False, cdivision=True
-# cython: infer_types=True, auto_pickle=False
 """In which order to visit places: the travelling salesman's problem, from a start to wherever the path ends.
 
 Steps differ by direction. Places belong to regions, and come region by region.

@@ -1,5 +1,3 @@
-# cython: language_level=3, boundscheck=False, wraparound=False, cdivision=True
-# cython: infer_types=True, auto_pickle=False, binding=False
 """From the shadow of the panel's RAM and a new frame to a plan of few bytes.
 
 A *piece* is a stretch of changed cells in one row. Which ways there are, the controller says.

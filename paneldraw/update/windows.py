@@ -1,5 +1,3 @@
-# cython: language_level=3, boundscheck=False, wraparound=False, cdivision=True
-# cython: infer_types=True, auto_pickle=False
 """Updates as rectangles: which ones, in which order, and what they cost.
 
 A box is a rectangle of cells, a piece a stretch of them in one row; right and bottom are exclusive.
