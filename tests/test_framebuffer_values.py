@@ -6,6 +6,7 @@ import copy
 import gc
 import inspect
 import pickle
+import pydoc
 import sys
 import weakref
 
@@ -225,6 +226,32 @@ def test_signatures_are_pythons(package, name):
             assert said == "int | float"
         if parameter.name in WORDS:
             assert said == "str"
+
+
+@pytest.mark.parametrize(
+    ("name", "said"),
+    [
+        ("Supersample", "(n: int = 4, reference: str = center)"),
+        ("ConeFilter", "(radius: float = 1.0, filter: str = cone, resolution: int = 32)"),
+        (
+            "Framebuffer",
+            "(width: SupportsIndex, height: SupportsIndex, depth: int = 1, *, antialias: Antialias = None)",
+        ),
+    ],
+)
+def test_signatures_of_classes_are_pythons(package, name, said):
+    kind = getattr(package, name)
+
+    class Kind(kind):
+        pass
+
+    class Other(kind):
+        def __init__(self, size: int) -> None:
+            pass
+
+    for each, wanted in ((kind, said), (Kind, said), (Other, "(size: int) -> None")):
+        assert str(inspect.signature(each)).replace("'", "") == wanted
+    assert f"{name}{said}" in pydoc.plain(pydoc.render_doc(kind)).replace("'", "")
 
 
 # -- Anti-aliasing made inside a call

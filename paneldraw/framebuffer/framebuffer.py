@@ -15,6 +15,7 @@ from cython.cimports.paneldraw.framebuffer.arguments import FAR, is_word, level,
 from cython.cimports.paneldraw.framebuffer.painter import Painter
 from cython.cimports.paneldraw.raster.surface import Surface
 
+from paneldraw._signatures import SignatureOfInit
 from paneldraw.framebuffer import pictures
 from paneldraw.framebuffer.angles import sweep
 from paneldraw.framebuffer.arguments import LARGEST, check_antialias, choice, in_turn, real, size, whole
@@ -106,6 +107,8 @@ class Framebuffer:
     if TYPE_CHECKING:
         pixels: NDArray[np.uint8]
         depth: int
+
+    __signature__ = SignatureOfInit()
 
     def __init__(
         self, width: SupportsIndex, height: SupportsIndex, depth: int = 1, *, antialias: Antialias = None

@@ -14,6 +14,8 @@ import numpy as np
 from cython.cimports.libc.math import ceil
 from cython.cimports.paneldraw.raster.floors import floored
 
+from paneldraw._signatures import SignatureOfInit
+
 # As typing has it, without an import that costs as much as the rest.
 TYPE_CHECKING = False
 
@@ -77,6 +79,8 @@ class ConeFilter:
         radius: float
         filter: str
         resolution: int
+
+    __signature__ = SignatureOfInit()
 
     @cython.annotation_typing(False)
     def __init__(self, radius: float = 1.0, filter: str = "cone", resolution: int = 32) -> None:

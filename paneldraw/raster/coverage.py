@@ -18,6 +18,8 @@ from cython.cimports.paneldraw.raster.cone import FILTER_FULL, FILTER_SHIFT, Con
 from cython.cimports.paneldraw.raster.paint import inverse_of, paint_coverage
 from cython.cimports.paneldraw.raster.surface import Surface
 
+from paneldraw._signatures import SignatureOfInit
+
 # As typing has it, without an import that costs as much as the rest.
 TYPE_CHECKING = False
 
@@ -61,6 +63,8 @@ class Supersample:
     if TYPE_CHECKING:
         n: int
         reference: str
+
+    __signature__ = SignatureOfInit()
 
     def __cinit__(self):
         # Also of what no `__init__` has seen, divisions by n are divisions.
