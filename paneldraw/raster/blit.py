@@ -8,7 +8,7 @@ import cython
 from cython.cimports.cpython.buffer import PyBUF_RECORDS_RO, PyBuffer_Release, PyObject_CheckBuffer, PyObject_GetBuffer
 from cython.cimports.cpython.pycapsule import PyCapsule_GetPointer
 from cython.cimports.libc.string import memmove, memset
-from cython.cimports.paneldraw.raster.surface import Surface
+from cython.cimports.paneldraw.raster.surface import Surface, near
 
 if not cython.compiled:
     ArrowArray = type("ArrowArray", (), {})
@@ -168,10 +168,10 @@ class Picture:
             return False
         if _overlap(self, surface):
             self._copy()
-        self.first = top * self.down + left * self.across
-        self.target = (y + top) * surface.stride + x + left
-        self.count = right - left
-        self.rows = bottom - top
+        self.first = near(top * self.down + left * self.across)
+        self.target = near((y + top) * surface.stride + x + left)
+        self.count = near(right - left)
+        self.rows = near(bottom - top)
         return True
 
     def _copy(self):
@@ -256,10 +256,10 @@ def block(surface, x1, y1, x2, y2, level, op):
         for y in range(top, bottom):
             surface.pixels[y * surface.stride + left] = level
     elif right - left == surface.stride:
-        _set(surface.pixels, top * surface.stride, (bottom - top) * surface.stride, level)
+        _set(surface.pixels, near(top * surface.stride), near((bottom - top) * surface.stride), level)
     else:
         for y in range(top, bottom):
-            _set(surface.pixels, y * surface.stride + left, right - left, level)
+            _set(surface.pixels, near(y * surface.stride + left), near(right - left), level)
 
 
 def scroll(surface, dx, dy, level):
@@ -274,11 +274,11 @@ def scroll(surface, dx, dy, level):
         if level >= 0:
             block(surface, left, top, right, bottom, level, 0)
         return
-    count: cython.Py_ssize_t = width
-    rows: cython.Py_ssize_t = height
+    count: cython.Py_ssize_t = near(width)
+    rows: cython.Py_ssize_t = near(height)
     step: cython.Py_ssize_t = surface.stride
-    source: cython.Py_ssize_t = (top + max(-dy, 0)) * step + left + max(-dx, 0)
-    target: cython.Py_ssize_t = (top + max(dy, 0)) * step + left + max(dx, 0)
+    source: cython.Py_ssize_t = near((top + max(-dy, 0)) * step + left + max(-dx, 0))
+    target: cython.Py_ssize_t = near((top + max(dy, 0)) * step + left + max(dx, 0))
     if count == step:
         count *= rows
         rows = 1

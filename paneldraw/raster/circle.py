@@ -19,7 +19,7 @@ from cython.cimports.libc.math import sqrt
 from cython.cimports.paneldraw.raster.floors import floored
 from cython.cimports.paneldraw.raster.line import bresenham
 from cython.cimports.paneldraw.raster.paint import once, painted
-from cython.cimports.paneldraw.raster.surface import Surface, holds
+from cython.cimports.paneldraw.raster.surface import Surface, holds, near
 
 #: The length of the vectors that `arc` and `sector` take for angles.
 UNIT = 1 << 40
@@ -166,8 +166,8 @@ def _corners(
         return
     pixels: cython.p_uchar = surface.pixels
     becomes: cython.p_uchar = surface.becomes
-    above: cython.Py_ssize_t = top * surface.stride
-    below: cython.Py_ssize_t = bottom * surface.stride
+    above: cython.Py_ssize_t = near(top * surface.stride)
+    below: cython.Py_ssize_t = near(bottom * surface.stride)
     pixels[above + left] = becomes[pixels[above + left]]
     pixels[above + right] = becomes[pixels[above + right]]
     pixels[below + left] = becomes[pixels[below + left]]

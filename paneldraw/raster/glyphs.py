@@ -8,6 +8,7 @@ from typing import Any
 import cython
 import numpy as np
 from cython.cimports.paneldraw.raster.paint import inverse_of, paint_coverage
+from cython.cimports.paneldraw.raster.surface import near
 
 
 @cython.final
@@ -109,8 +110,8 @@ def write(surface, glyphs, text, x, y, factor):
 
 def stamp(coverage, mask, width, height, x, y):
     """Paint through a mask of coverages 0 ... 255, row by row in memory, its top-left pixel at (x, y)."""
-    line: cython.Py_ssize_t
-    column: cython.Py_ssize_t
+    line: cython.longlong
+    column: cython.longlong
     covered: cython.int
     first: cython.longlong = max(0, coverage.surface.left - x)
     last: cython.longlong = min(width, coverage.surface.right - x)
@@ -123,4 +124,5 @@ def stamp(coverage, mask, width, height, x, y):
             covered = mask[line * width + column]
             changes[column - first] = covered - before
             before = covered
-        paint_coverage(coverage.surface, y + line, x + first, changes, 0, last - first, 0, 255, inverse_of(255))
+        count = near(last - first)
+        paint_coverage(coverage.surface, near(y + line), near(x + first), changes, 0, count, 0, 255, inverse_of(255))

@@ -18,7 +18,7 @@ cdef struct Walk:
     bint steep
     bint back
     bint up
-    Py_ssize_t index
+    long long index
     Py_ssize_t along
     Py_ssize_t across
     long long dx

@@ -7,7 +7,7 @@ the shorter axis is lit. Coordinates are whole pixels within +-2**29.
 
 import cython
 from cython.cimports.paneldraw.raster.paint import once, painted
-from cython.cimports.paneldraw.raster.surface import Surface, holds
+from cython.cimports.paneldraw.raster.surface import Surface, holds, near
 
 if not cython.compiled:
     Walk = type("Walk", (), {})
@@ -114,7 +114,7 @@ def _bresenham(surface: Surface, walk: cython.pointer[Walk]) -> cython.void:
     p: cython.longlong = straight * (walk.first + 1) - walk.dx * (2 * walk.moved + 1)
     along: cython.Py_ssize_t = walk.along
     both: cython.Py_ssize_t = walk.along + walk.across
-    i: cython.Py_ssize_t = walk.index + walk.first * walk.along + walk.moved * walk.across
+    i: cython.Py_ssize_t = near(walk.index + walk.first * walk.along + walk.moved * walk.across)
     pixels: cython.p_uchar = surface.pixels
     becomes: cython.p_uchar = surface.becomes
     for _ in range(walk.last - walk.first + 1):
@@ -147,7 +147,7 @@ def _dda(surface, walk):
     slope: cython.double = walk.dy / run
     doubled: cython.longlong = 2 * max(walk.dx, 1)
     above: cython.double = ((2 * walk.first * walk.dy + walk.dx) % doubled + 0.5) / doubled
-    i: cython.Py_ssize_t = walk.index + walk.first * walk.along + walk.moved * walk.across
+    i: cython.Py_ssize_t = near(walk.index + walk.first * walk.along + walk.moved * walk.across)
     for _ in range(walk.last - walk.first + 1):
         surface.pixels[i] = surface.becomes[surface.pixels[i]]
         i += walk.along

@@ -37,7 +37,7 @@ def once(surface):
 def painted(surface, marks, top, bottom):
     """Paint what was painted on `marks` in the rows ``top <= y < bottom``, which hold it all, and clear it there."""
     x: cython.Py_ssize_t
-    y: cython.Py_ssize_t
+    y: cython.longlong
     row: cython.p_uchar
     if marks is surface:
         return

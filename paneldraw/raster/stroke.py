@@ -291,7 +291,7 @@ class Stroke:
         pairs: cython.longlong = len(dash) // 2
         number: cython.longlong = 0
         while True:
-            k: cython.Py_ssize_t = 2 * (number % pairs)
+            k: cython.longlong = 2 * (number % pairs)
             before: cython.double = cython.cast(cython.double, number // pairs) * period - distance
             start: cython.double = before + cython.cast(cython.double, stops[k])
             end: cython.double = before + cython.cast(cython.double, stops[k + 1])

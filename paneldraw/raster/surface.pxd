@@ -19,6 +19,9 @@ cdef class Surface:
     cdef void point(self, long long x, long long y) noexcept nogil
     cdef void span(self, long long y, long long x1, long long x2) noexcept nogil
 
-# What surface.py tells of this one, inlined into the modules that ask.
+# What surface.py tells of these two, inlined into the modules that ask.
+cdef inline Py_ssize_t near(long long number) noexcept nogil:
+    return <Py_ssize_t> number
+
 cdef inline bint holds(Surface surface, long long x, long long y) noexcept nogil:
     return surface.left <= x < surface.right and surface.top <= y < surface.bottom

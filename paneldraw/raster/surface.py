@@ -6,6 +6,10 @@ from cython.cimports.libc.string import memset
 if not cython.compiled:
     OVER, XOR, ADD, MAX, CLEAR = range(5)
 
+    def near(number):
+        """A number as large as memory at most, in the type that counts that: cut to the window, or within reach."""
+        return number
+
     def holds(surface, x, y):
         """Whether a pixel is in the window."""
         return surface.left <= x < surface.right and surface.top <= y < surface.bottom

@@ -80,6 +80,26 @@ int g(long long far);
 int g(long long far) {
   return far;
 }
+typedef int Py_ssize_t;
+Py_ssize_t h(long long far);
+Py_ssize_t h(long long far) {
+
+  /* "paneldraw/raster/line.py":90
+ * ...
+ */
+  Py_ssize_t place = far;
+
+  /* "paneldraw/raster/disc.py":91
+ * ...
+ */
+  place += far;
+
+  /* "paneldraw/raster/line.py":92
+ * ...
+ */
+  place += (Py_ssize_t)far;
+  return place;
+}
 """
 
 
@@ -90,6 +110,6 @@ def test_warnings_name_the_line_of_python(tmp_path):
     for text in c_warnings.warnings("gcc", [], file):
         source, said = re.fullmatch(r"(paneldraw/raster/line\.py:\d+): (.*)", text).groups()
         told.setdefault(source[-2:], []).append(said)
-    assert told.keys() == {"34", "56", "78"}
-    for line, kind in (("34", "shift"), ("56", "conversion"), ("78", "sign")):
+    assert told.keys() == {"34", "56", "78", "90"}
+    for line, kind in (("34", "shift"), ("56", "conversion"), ("78", "sign"), ("90", "conversion")):
         assert kind in told[line][0]
