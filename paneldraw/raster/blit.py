@@ -252,14 +252,19 @@ def block(surface, x1, y1, x2, y2, level, op):
         return
     if op == 4:
         level = 0
+    pixels: cython.p_uchar = surface.pixels
+    stride: cython.Py_ssize_t = surface.stride
+    at: cython.Py_ssize_t = near(top * stride + left)
     if right - left == 1:
-        for y in range(top, bottom):
-            surface.pixels[y * surface.stride + left] = level
-    elif right - left == surface.stride:
-        _set(surface.pixels, near(top * surface.stride), near((bottom - top) * surface.stride), level)
+        for _ in range(top, bottom):
+            pixels[at] = level
+            at += stride
+    elif right - left == stride:
+        _set(pixels, at, near((bottom - top) * stride), level)
     else:
-        for y in range(top, bottom):
-            _set(surface.pixels, near(y * surface.stride + left), near(right - left), level)
+        for _ in range(top, bottom):
+            _set(pixels, at, near(right - left), level)
+            at += stride
 
 
 def scroll(surface, dx, dy, level):
