@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from firmware_protocol.frames import FRAME_OVERHEAD, wire_size
-from firmware_protocol.messages import HelloReply, Kind
+from firmware_protocol.messages import HelloReply, Kind, PanelBus
 from firmware_protocol.runs import LEAST_PAYLOAD, Run, bus_bytes, cut_runs, pack_runs, unpack_runs
 
 #: Payload that a bad line shrinks frames to: at 3 errors in 1000 bytes five of six still arrive.
@@ -45,6 +45,8 @@ class Pace:
         self._fast = baudrate > FAST
         parts = 3 if self._fast else 2
         self._repeats = device.repeats
+        # On SPI a run is a chip select, and a chain of MAX7219 takes half of one for a whole one.
+        self._whole = min(device.max_payload, device.window - 8) if device.bus == PanelBus.SPI else 0
         self._best_window = device.window
         self._best_payload = max(LEAST_PAYLOAD, min(device.max_payload, device.window // parts - 8))
         self.payload = self._best_payload
@@ -53,7 +55,7 @@ class Pace:
     def writes(self, runs: Iterable[Run], end: bool) -> list[Work]:
         """Return runs as messages; ``end`` says that they complete a picture."""
         payloads = self._packed(runs)
-        if payloads:
+        if payloads and not self._whole:  # SPI is faster than any wire
             # A fast wire waits for the panel's bus, which therefore starts early; a slow one has it end soon after.
             cut = 0 if self._fast else len(payloads) - 1
             payloads[cut : cut + 1] = self._overlapping(payloads[cut])
@@ -77,7 +79,7 @@ class Pace:
         self.window = min(self._best_window, self.window + 4 * count)
 
     def _packed(self, runs: Iterable[Run]) -> list[bytes]:
-        return pack_runs(runs, self.payload, repeats=self._repeats)
+        return pack_runs(runs, self.payload, repeats=self._repeats, whole=self._whole)
 
     def _overlapping(self, payload: bytes) -> list[bytes]:
         """Cut a payload in two so that the bus is done with the first part when the wire is with the second."""

@@ -30,7 +30,7 @@ _PAIRS = re.compile(rb"(?:(.)\1)+", re.DOTALL)
 Run = tuple[bool, bytes | memoryview]
 
 
-def pack_runs(runs: Iterable[Run], limit: int, *, repeats: bool = True) -> list[bytes]:
+def pack_runs(runs: Iterable[Run], limit: int, *, repeats: bool = True, whole: int = 0) -> list[bytes]:
     """Turn runs into WRITE payloads, as few as there can be.
 
     Parameters
@@ -42,6 +42,9 @@ def pack_runs(runs: Iterable[Run], limit: int, *, repeats: bool = True) -> list[
         Most bytes a payload may have, at least 32.
     repeats : bool, default True
         Whether the device understands repeats.
+    whole : int, default 0
+        For a bus on which a run is a chip select, the longest payload of all: a run that fits into one is not cut, be
+        it above `limit`, and neighbors of one kind stand in two. Default: runs may be cut and joined.
 
     Returns
     -------
@@ -54,15 +57,17 @@ def pack_runs(runs: Iterable[Run], limit: int, *, repeats: bool = True) -> list[
     ['82 b0 02 10 d9 00']
     >>> [p.hex(" ") for p in pack_runs([(False, b"\\xb0\\x02\\x10"), (True, b"\\x01\\x02")], 64)]
     ['92 b0 02 10 01 02']
+    >>> [p.hex(" ") for p in pack_runs([(True, b"\\x01\\x80"), (True, b"\\x02\\x40")], 64, whole=64)]
+    ['01 01 80', '01 02 40']
     """
     if limit < LEAST_PAYLOAD:
         raise ValueError(f"limit must be at least {LEAST_PAYLOAD} bytes, not {limit}")
-    packer = _Packer(limit)
+    packer = _Packer(limit, repeats)
     for is_data, content in runs:
-        if is_data:
-            packer.data(content, repeats)
+        if whole:
+            packer.apart(is_data, content, whole)
         else:
-            packer.commands(content)
+            packer.add(is_data, content)
     return packer.finish()
 
 
@@ -144,19 +149,47 @@ def _sizes(header: int) -> tuple[int, int]:
 class _Packer:
     """Fills payloads token by token."""
 
-    def __init__(self, limit: int) -> None:
+    def __init__(self, limit: int, repeats: bool) -> None:
         self.limit = limit
+        self.repeats = repeats
         self.payload = bytearray()
         self.done: list[bytes] = []
         # Where the token of commands stands that the payload ends with.
         self.open: int | None = None
+        # The kind of the run that the payload ends with.
+        self.kind: bool | None = None
 
     def finish(self) -> list[bytes]:
         if self.payload:
             self.done.append(bytes(self.payload))
             self.payload.clear()
-            self.open = None
+            self.open = self.kind = None
         return self.done
+
+    def add(self, is_data: bool, content: bytes | memoryview) -> None:
+        if is_data:
+            self.data(content)
+        else:
+            self.commands(content)
+
+    def apart(self, is_data: bool, content: bytes | memoryview, whole: int) -> None:
+        """Add a run that neither joins the one before nor is cut if a payload of ``whole`` bytes can hold it."""
+        if is_data == self.kind:
+            self.finish()
+        before, payload, opened = len(self.done), bytes(self.payload), self.open
+        self.add(is_data, content)
+        self.kind = is_data
+        if len(self.done) == before:
+            return
+        if len(pack_runs([(is_data, content)], whole, repeats=self.repeats)) == 1:
+            del self.done[before:]
+            self.payload[:], self.open = payload, opened
+            self.finish()
+            limit, self.limit = self.limit, whole
+            self.add(is_data, content)
+            self.limit, self.kind = limit, is_data
+            if len(self.payload) > limit:
+                self.finish()
 
     def commands(self, content: bytes | memoryview) -> None:
         size = len(content) + -(-len(content) // MAX_COMMANDS)
@@ -170,8 +203,8 @@ class _Packer:
             self.payload.append(COMMAND_HEADER + len(part) - 1)
             self.payload += part
 
-    def data(self, content: bytes | memoryview, repeats: bool) -> None:
-        if not repeats or len(content) < 2:
+    def data(self, content: bytes | memoryview) -> None:
+        if not self.repeats or len(content) < 2:
             self._literal(content)
             return
         at = 0

@@ -57,7 +57,7 @@ def run(rounds: int) -> None:
 
         def board() -> Board:
             fresh = Board(*binaries)
-            fresh.run(HZ // 50)
+            fresh.run(HZ // 20)
             return fresh
 
         for baudrate, wanted in ((115_200, 10.5), (500_000, 33.0), (1_000_000, None)):

@@ -14,13 +14,16 @@ import firmware_protocol
 FIRMWARE = Path(firmware_protocol.__file__).parent / "firmware"
 
 
-def made(target: str, result: str, build: Path, *needed: str, options: str = "") -> Path:
-    """Build a target of the firmware's Makefile, or skip where a compiler is missing."""
+def made(target: str, result: str, build: Path, *needed: str, options: str = "", **settings: str) -> Path:
+    """Build a target of the firmware's Makefile with settings such as ``BUS``, or skip where a compiler is missing."""
     for tool in ("make", *needed):
         if not shutil.which(tool):
             pytest.skip(f"{tool} is not installed")
     done = subprocess.run(
-        ["make", "-C", str(FIRMWARE), target, f"BUILD={build}", f"OPTIONS={options}"],
+        [
+            *("make", "-C", str(FIRMWARE), target, f"BUILD={build}", f"OPTIONS={options}"),
+            *(f"{name}={value}" for name, value in settings.items()),
+        ],
         capture_output=True,
         text=True,
         check=False,

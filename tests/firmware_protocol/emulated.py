@@ -7,7 +7,9 @@ import random
 import shutil
 import subprocess
 from collections.abc import Callable
+from itertools import groupby
 from pathlib import Path
+from typing import Protocol
 
 import pytest
 from c_core import made
@@ -17,13 +19,16 @@ HZ = 16_000_000
 RIG = Path(__file__).parent / "rig" / "rig.c"
 
 
-def built(build: Path, options: str = "") -> tuple[Path, Path]:
-    """Return the rig's library and the firmware, or skip where something to build them with is missing."""
+def built(build: Path, options: str = "", **settings: str) -> tuple[Path, Path]:
+    """Return the rig's library and the firmware, or skip where something to build them with is missing.
+
+    Settings are the Makefile's: ``BUS``, ``CHIP``, ``SIZE``.
+    """
     if not Path("/usr/include/simavr").exists():
         pytest.skip("libsimavr-dev is not installed")
     if not shutil.which("cc"):
         pytest.skip("cc is not installed")
-    elf = made("atmega328p", "atmega328p/paneldraw.elf", build, "avr-gcc", options=options)
+    elf = made("atmega328p", "atmega328p/paneldraw.elf", build, "avr-gcc", options=options, **settings)
     library = build / "rig.so"
     flags = ["-O2", "-Wall", "-Wextra", "-Werror", "-shared", "-fPIC"]
     done = subprocess.run(
@@ -42,7 +47,7 @@ class Board:
         self.c.rig_cycle.restype = ctypes.c_uint64
         self.c.rig_run.restype = ctypes.c_bool
         self.c.rig_run.argtypes = [ctypes.c_void_p, ctypes.c_uint64, ctypes.c_bool]
-        for name in ("take", "log", "overruns", "untouched"):
+        for name in ("take", "log", "wire", "overruns", "untouched", "spi_fastest"):
             getattr(self.c, f"rig_{name}").restype = ctypes.c_uint32
         self.c.rig_panel.argtypes = [ctypes.c_void_p, ctypes.c_bool, ctypes.c_bool, ctypes.c_long]
         self.rig = ctypes.c_void_p(self.c.rig_new(str(elf).encode()))
@@ -82,6 +87,25 @@ class Board:
             at += 2 + size
         return [content for content in found if content]
 
+    def wire(self) -> list[tuple[str, bytes]]:
+        """Return what a panel on SPI has seen since: runs of bytes and what happened between them.
+
+        ``"c"`` and ``"d"`` are bytes with D/C low and high, ``"/"`` the end of a chip select, ``"r"`` the end of a
+        reset pulse, with its milliseconds.
+        """
+        seen = bytes(self.room[: self.c.rig_wire(self.rig, self.room, len(self.room))])
+        wrong = {chr(what) for event, what in zip(seen[::2], seen[1::2], strict=True) if event == ord("!")}
+        assert not wrong, f"a panel may have missed something: {wrong}"
+        return [
+            (kind, bytes(byte for _, byte in run))
+            for kind, run in groupby(zip(map(chr, seen[::2]), seen[1::2], strict=True), lambda event: event[0])
+        ]
+
+    @property
+    def spi_clock(self) -> float:
+        """The fastest clock that the panel has seen, in Hz."""
+        return HZ / int(self.c.rig_spi_fastest(self.rig))
+
     def panel(self, *, absent: bool = False, stuck: bool = False, nack_after: int = -1) -> None:
         self.c.rig_panel(self.rig, absent, stuck, nack_after)
 
@@ -100,8 +124,40 @@ class Board:
         return int(self.c.rig_untouched(self.rig))
 
 
+class SPIPanel(Protocol):
+    """What a panel on SPI takes, as a simulated chip does."""
+
+    def transfer(self, run: bytes, data: bool) -> object: ...
+    def deselect(self) -> object: ...
+    def reset(self) -> object: ...
+
+
+class Recorder:
+    """Keeps what a panel on SPI is sent: chip selects, each of runs with D/C high (True) or low, and resets."""
+
+    def __init__(self) -> None:
+        self.selects: list[list[tuple[bool, bytes]]] = []
+        self.open: list[tuple[bool, bytes]] = []
+        self.resets = 0
+
+    def transfer(self, run: bytes, data: bool) -> None:
+        if self.open and self.open[-1][0] == data:
+            run = self.open.pop()[1] + run
+        self.open.append((data, run))
+
+    def deselect(self) -> None:
+        self.selects.append(self.open)
+        self.open = []
+
+    def reset(self) -> None:
+        self.resets += 1
+
+
 class BoardPort:
-    """What `HostLink` needs of a pyserial port, joined to a `Board`; `clock` is the board's time."""
+    """What `HostLink` needs of a pyserial port, joined to a `Board`; `clock` is the board's time.
+
+    A panel on I²C is ``panel``, called with each transaction; one on SPI is ``spi``.
+    """
 
     name = "emulated"
 
@@ -110,6 +166,7 @@ class BoardPort:
         self.noise = noise or Noise()
         self.rng = random.Random(seed)
         self.panel: Callable[[bytes], None] | PagePanel = PagePanel()
+        self.spi: SPIPanel = Recorder()
         self.baudrate, self.timeout, self.is_open = 115200, 0.02, True
         self.received = bytearray()
         self.carried = 0
@@ -144,6 +201,13 @@ class BoardPort:
             self.received += self.noise(data, self.rng)
         for content in self.board.transactions():
             self.panel(content)
+        for kind, content in self.board.wire():
+            if kind == "/":
+                self.spi.deselect()
+            elif kind == "r":
+                self.spi.reset()
+            else:
+                self.spi.transfer(content, kind == "d")
         data = bytes(self.received[:size])
         del self.received[:size]
         return data

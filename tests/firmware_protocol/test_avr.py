@@ -24,7 +24,7 @@ HELLO = b"\0" + encode(Hello(0x01020304))
 @pytest.fixture
 def board(binaries: tuple[Path, Path]) -> Iterator[Board]:
     board = Board(*binaries)
-    board.run(HZ // 50)
+    board.run(HZ // 20)
     yield board
     board.close()
 
@@ -118,7 +118,7 @@ def test_the_golden_conversations(board: Board) -> None:
         name, *lines = part.splitlines()
         board.reset(power=True)
         board.panel()
-        board.run(board.cycle + HZ // 50)
+        board.run(board.cycle + HZ // 20)
         board.output(115200)
         board.transactions()
         replies, written, wanted, wanted_written = b"", [], b"", []
@@ -255,7 +255,7 @@ def test_a_host_that_leaves_at_a_fast_rate_finds_the_board_again(board: Board) -
 @pytest.mark.parametrize(("oldest", "newest", "advice"), [(2, 3, "update paneldraw"), (1, 9, "")])
 def test_firmware_that_is_newer(tmp_path: Path, oldest: int, newest: int, advice: str) -> None:
     board = Board(*built(tmp_path, f"-DPD_OLDEST_VERSION={oldest} -DPD_NEWEST_VERSION={newest}"))
-    board.run(HZ // 50)
+    board.run(HZ // 20)
     if advice:
         with pytest.raises(VersionError, match=advice):
             joined(board)
@@ -293,14 +293,24 @@ def test_a_line_at_another_rate_than_the_host_believes(board: Board, factor: flo
     assert port.panel.ram == picture
 
 
-def test_the_options_of_the_readme(tmp_path: Path) -> None:
+def test_the_builds_of_the_readme(tmp_path: Path) -> None:
     text = (FIRMWARE / "README.md").read_text()
-    options = [option.strip("'") for option in re.findall(r"`OPTIONS=('[^']+'|\S+)`", text)]
-    board = Board(*built(tmp_path, " ".join(options)))
-    board.run(HZ // 50)
-    said = joined(board)[1].device
-    assert (said.controller, said.width, said.height, said.address) == ("sh1106", 128, 64, 0x3D)
-    board.close()
+    (options,) = re.findall(r"`OPTIONS=(\S+)`", text)
+    builds = re.findall(r"^    make -C firmware_protocol/firmware atmega328p(.*)", text, re.MULTILINE)
+    made = []
+    for number, build in enumerate(builds):
+        settings = dict(setting.split("=") for setting in build.split())
+        board = Board(*built(tmp_path / str(number), options, **settings))
+        board.run(HZ // 20)
+        said = joined(board)[1].device
+        made.append((said.bus.name, said.address, said.controller, said.width, said.height))
+        board.close()
+    assert made == [
+        ("I2C", 0x3D, "ssd1306", 128, 64),
+        ("I2C", 0x3D, "sh1106", 128, 64),
+        ("SPI", 0, "ssd1322", 256, 64),
+        ("SPI", 0, "max7219", 64, 8),
+    ]
 
 
 def test_the_readme_names_the_files_that_are_made() -> None:

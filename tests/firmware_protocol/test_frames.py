@@ -119,6 +119,30 @@ def test_runs_come_back_in_payloads_within_the_limit(runs, limit: int, repeats: 
     assert re.sub(r"(.)\1+", r"\1", came_kinds) == re.sub(r"(.)\1+", r"\1", kinds)
 
 
+@given(RUNS, st.integers(LEAST_PAYLOAD, 250), st.integers(0, 250), st.booleans())
+def test_runs_that_are_chip_selects_stay_whole_and_apart(runs, limit: int, more: int, repeats: bool) -> None:
+    whole = limit + more
+    payloads = pack_runs(runs, limit, repeats=repeats, whole=whole)
+    assert all(0 < len(p) <= whole for p in payloads)
+    came = [run for p in payloads for run in unpack_runs(p)]
+    for is_data, content in runs:
+        pieces = [came.pop(0)]
+        fits = len(pack_runs([(is_data, content)], whole, repeats=repeats)) == 1
+        while not fits and len(b"".join(piece for _, piece in pieces)) < len(content):
+            pieces.append(came.pop(0))
+        assert {kind for kind, _ in pieces} == {is_data}
+        assert b"".join(piece for _, piece in pieces) == content
+    assert came == []
+
+
+@given(st.lists(st.binary(min_size=1, max_size=3), min_size=1, max_size=60), st.integers(LEAST_PAYLOAD, 250))
+def test_keeping_small_runs_whole_costs_hardly_a_frame(contents: list[bytes], limit: int) -> None:
+    runs = [(at % 2 == 1, content) for at, content in enumerate(contents)]
+    unfilled = 4  # a run of three bytes did not fit any more
+    least = -(-sum(map(len, pack_runs(runs, 250))) // (limit - unfilled))
+    assert len(pack_runs(runs, limit, whole=250)) <= least + 1
+
+
 @given(st.binary(min_size=1, max_size=600), st.booleans())
 def test_packing_never_costs_more_than_literals(content: bytes, doubled: bool) -> None:
     content = bytes(b for b in content for _ in range(1 + 3 * doubled))

@@ -20,7 +20,7 @@ from paneldraw.transports import SerialTransport
 @pytest.fixture
 def board(binaries: tuple[Path, Path]) -> Iterator[Board]:
     board = Board(*binaries)
-    board.run(HZ // 50)
+    board.run(HZ // 20)
     yield board
     board.close()
 
@@ -93,7 +93,7 @@ def test_scenes_by_the_emulated_chip_in_frames_a_second(binaries: tuple[Path, Pa
     seconds = 0.0
     for scene in SCENES.values():
         board = Board(*binaries)
-        board.run(HZ // 50)
+        board.run(HZ // 20)
         port = BoardPort(board)
         chip = simulator.SSD1306(128, 64, history=1)
         port.panel = chip.write

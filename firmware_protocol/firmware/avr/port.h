@@ -1,4 +1,4 @@
-/* An ATmega328P (Arduino Uno, Nano) with the panel on its I2C pins. */
+/* An ATmega328P (Arduino Uno, Nano) with the panel on its I2C pins, or with -DPD_SPI on its SPI pins. */
 #ifndef PANELDRAW_PORT_H
 #define PANELDRAW_PORT_H
 
@@ -10,16 +10,18 @@
 #define PD_RING_SIZE 512
 #define PD_TX_SIZE 128
 #define PD_MAX_PAYLOAD 250
-#define PD_BUS PD_BUS_IS_I2C
 
+#ifdef PD_SPI
+#define PD_BUS PD_BUS_IS_SPI
+#undef PD_ADDRESS
+#define PD_ADDRESS 0
+#else
+#define PD_BUS PD_BUS_IS_I2C
 #ifndef PD_ADDRESS
 #define PD_ADDRESS 0x3C
 #endif
-#ifndef PD_CONTROLLER
-#define PD_CONTROLLER "ssd1306"
-#define PD_WIDTH 128
-#define PD_HEIGHT 64
 #endif
+/* PD_CONTROLLER, PD_WIDTH and PD_HEIGHT come from the Makefile. */
 #define PD_FIRMWARE "paneldraw-atmega328p 1.0"
 /* What 16 MHz divides into exactly comes first; 115200 is 2.1 % fast, which 8N1 bears. */
 #define PD_RATES {500000UL, 1000000UL, 250000UL, 115200UL}

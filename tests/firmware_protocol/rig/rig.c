@@ -1,6 +1,6 @@
 /* An ATmega328P that runs the real firmware: a test program on libsimavr (GPL), never part of what is shipped.
  *
- * simavr runs the instructions. Its UART and TWI are taken out and replaced by the ones below, written after the
+ * simavr runs the instructions. Its UART, TWI and SPI are taken out and replaced by the ones below, written after the
  * part's datasheet, because simavr's keep other times, acknowledge an address with the status of a data byte, buffer
  * 64 characters where the part has two, and forget their timers at a reset. Bytes come and go with their cycle, so
  * that whoever drives this decides what time is: as fast as it runs, or paced by a clock.
@@ -10,6 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <simavr/avr_ioport.h>
+#include <simavr/avr_spi.h>
 #include <simavr/avr_twi.h>
 #include <simavr/avr_uart.h>
 #include <simavr/sim_avr.h>
@@ -26,6 +28,10 @@ enum { PORF = 1, EXTRF = 2, BORF = 4, WDRF = 8 };
 enum { U2X = 0x02, DOR = 0x08, FE = 0x10, UDRE = 0x20, TXC = 0x40, RXC = 0x80 };
 enum { TXEN = 0x08, RXEN = 0x10, UDRIE = 0x20 };
 enum { TWEN = 0x04, TWSTO = 0x10, TWSTA = 0x20, TWINT = 0x80 };
+enum { SPR = 0x03, CPHA = 0x04, CPOL = 0x08, MSTR = 0x10, DORD = 0x20, SPE = 0x40 };
+enum { SPI2X = 0x01, WCOL = 0x40, SPIF = 0x80 };
+/* Port B, as the SPI build has it. */
+enum { PANEL_RESET = 0x01, DC = 0x02, CHIP_SELECT = 0x04, MOSI = 0x08, CLOCK = 0x20 };
 
 struct character {
     uint64_t cycle;
@@ -38,11 +44,17 @@ struct queue {
     uint32_t head, tail;
 };
 
+struct log {
+    uint8_t *bytes;
+    size_t size, room;
+};
+
 struct rig {
     avr_io_t io; /* first: simavr calls reset with it */
     avr_t *avr;
     avr_uart_t *uart;
     avr_twi_t *twi;
+    avr_spi_t *spi;
     struct queue to_avr, from_avr;
     uint64_t line_free;
     uint8_t fifo[FIFO], fifo_status[FIFO], fifo_size;
@@ -52,10 +64,13 @@ struct rig {
     uint8_t twi_status, twi_byte;
     bool absent, stuck;
     long nack_after;
-    uint8_t *log;
-    size_t log_size, log_room, transaction;
-    uint64_t bus_cycle;
+    struct log log, wire;
+    size_t transaction;
+    uint64_t bus_cycle, panel_reset_cycle;
     uint32_t overruns;
+    bool spi_sending, spi_seen;
+    uint8_t spi_byte, pins;
+    uint32_t spi_fastest;
 };
 
 static uint8_t *reg(struct rig *rig, avr_io_addr_t at)
@@ -190,11 +205,11 @@ static void write_control(avr_t *avr, avr_io_addr_t at, uint8_t value, void *par
 
 /* -- TWI: a log of transactions, each its length in two bytes and its bytes without the address */
 
-static void note(struct rig *rig, uint8_t byte)
+static void note(struct log *log, uint8_t byte)
 {
-    if (rig->log_size == rig->log_room)
-        rig->log = realloc(rig->log, rig->log_room = 2 * rig->log_room + 4096);
-    rig->log[rig->log_size++] = byte;
+    if (log->size == log->room)
+        log->bytes = realloc(log->bytes, log->room = 2 * log->room + 4096);
+    log->bytes[log->size++] = byte;
 }
 
 static uint32_t twi_bit(struct rig *rig)
@@ -224,17 +239,17 @@ static void twi_byte(struct rig *rig)
         rig->addressed = true;
         rig->twi_status = ours ? 0x18 : 0x20;
         if (ours) {
-            rig->transaction = rig->log_size;
-            note(rig, 0);
-            note(rig, 0);
+            rig->transaction = rig->log.size;
+            note(&rig->log, 0);
+            note(&rig->log, 0);
         }
     } else if (rig->absent || rig->nack_after == 0) {
         rig->twi_status = 0x30;
     } else {
         if (rig->nack_after > 0)
             rig->nack_after--;
-        note(rig, byte);
-        uint8_t *length = rig->log + rig->transaction;
+        note(&rig->log, byte);
+        uint8_t *length = rig->log.bytes + rig->transaction;
         if (!++length[0])
             length[1]++;
         rig->twi_status = 0x28;
@@ -279,6 +294,103 @@ static void write_twi_data(avr_t *avr, avr_io_addr_t at, uint8_t value, void *pa
     avr->data[at] = value;
 }
 
+/* -- SPI and the panel's lines: a log of what a panel sees, each event a letter and a byte */
+
+enum event {
+    COMMAND = 'c', /* a byte with D/C low */
+    DATA = 'd',    /* a byte with D/C high */
+    DESELECT = '/',
+    RESET = 'r',   /* the reset line is low again and has been for so many milliseconds */
+    WRONG = '!',   /* a panel may have missed something, the byte says what */
+};
+enum { TORN = 't', COLLISION = 'c', NOT_SELECTED = 's', OTHER_MODE = 'm', NO_OUTPUT = 'o' };
+
+static void see(struct rig *rig, enum event what, uint8_t byte)
+{
+    note(&rig->wire, what);
+    note(&rig->wire, byte);
+}
+
+/* The lines as the panel has them; a pull-up holds those that nobody drives. */
+static void look_at_pins(struct rig *rig)
+{
+    avr_t *avr = rig->avr;
+    uint8_t pins = avr->data[0x25] | ~avr->data[0x24], changed = pins ^ rig->pins;
+    rig->pins = pins;
+    if (rig->spi_sending && changed & (DC | CHIP_SELECT))
+        see(rig, WRONG, TORN);
+    if (changed & pins & CHIP_SELECT)
+        see(rig, DESELECT, 0);
+    if (changed & pins & PANEL_RESET) {
+        uint64_t low = (avr->cycle - rig->panel_reset_cycle) / 16000;
+        see(rig, RESET, low > 255 ? 255 : low);
+    } else if (changed & PANEL_RESET) {
+        rig->panel_reset_cycle = avr->cycle;
+    }
+}
+
+static void pin_changed(avr_irq_t *irq, uint32_t value, void *param)
+{
+    (void)irq;
+    (void)value;
+    look_at_pins(param);
+}
+
+static uint64_t spi_done(avr_t *avr, uint64_t when, void *param)
+{
+    struct rig *rig = param;
+    (void)when;
+    rig->spi_sending = false;
+    *reg(rig, rig->spi->r_spsr) |= SPIF;
+    see(rig, rig->pins & DC ? DATA : COMMAND, rig->spi_byte);
+    avr_raise_interrupt(avr, &rig->spi->spi);
+    return 0;
+}
+
+static uint8_t read_spi_status(avr_t *avr, avr_io_addr_t at, void *param)
+{
+    ((struct rig *)param)->spi_seen = avr->data[at] & (SPIF | WCOL);
+    return avr->data[at];
+}
+
+static void write_spi_status(avr_t *avr, avr_io_addr_t at, uint8_t value, void *param)
+{
+    (void)param;
+    avr->data[at] = (avr->data[at] & ~SPI2X) | (value & SPI2X);
+}
+
+static void write_spi(avr_t *avr, avr_io_addr_t at, uint8_t value, void *param)
+{
+    static const uint8_t dividers[] = {4, 16, 64, 128};
+    struct rig *rig = param;
+    uint8_t control = *reg(rig, rig->spi->r_spcr), *status = reg(rig, rig->spi->r_spsr);
+    (void)at;
+    if (rig->spi_sending) {
+        *status |= WCOL;
+        see(rig, WRONG, COLLISION);
+        return;
+    }
+    if (rig->spi_seen)
+        *status &= ~(SPIF | WCOL);
+    rig->spi_seen = false;
+    if (rig->stuck)
+        *reg(rig, rig->spi->r_spcr) = control &= ~MSTR;
+    if (!(control & SPE) || !(control & MSTR))
+        return;
+    if (control & (DORD | CPOL | CPHA))
+        see(rig, WRONG, OTHER_MODE);
+    if (~avr->data[0x24] & (DC | CHIP_SELECT | MOSI | CLOCK))
+        see(rig, WRONG, NO_OUTPUT);
+    if (rig->pins & CHIP_SELECT)
+        see(rig, WRONG, NOT_SELECTED);
+    uint32_t bit = dividers[control & SPR] / (*status & SPI2X ? 2 : 1);
+    if (bit < rig->spi_fastest)
+        rig->spi_fastest = bit;
+    rig->spi_byte = value;
+    rig->spi_sending = true;
+    avr_cycle_timer_register(avr, 8 * bit, spi_done, rig);
+}
+
 /* -- the whole */
 
 static void reset(avr_io_t *io)
@@ -286,8 +398,9 @@ static void reset(avr_io_t *io)
     struct rig *rig = (struct rig *)io;
     rig->fifo_size = 0;
     rig->overrun = rig->shifting = rig->buffered = rig->transmitted = false;
-    rig->open = rig->addressed = false;
+    rig->open = rig->addressed = rig->spi_sending = rig->spi_seen = false;
     *reg(rig, rig->twi->r_twsr) = 0xF8;
+    look_at_pins(rig);
     show_status(rig);
     if (rig->to_avr.tail != rig->to_avr.head)
         avr_cycle_timer_register(rig->avr, 1, arrive, rig);
@@ -337,12 +450,20 @@ struct rig *rig_new(const char *elf)
     rig->avr->frequency = 16000000;
     rig->uart = module(rig->avr, "uart");
     rig->twi = module(rig->avr, "twi");
+    rig->spi = module(rig->avr, "spi");
     rig->nack_after = -1;
+    rig->pins = 0xFF;
+    rig->spi_fastest = UINT32_MAX;
     take_over(rig, rig->uart->r_udr, read_data, write_data);
     take_over(rig, rig->uart->r_ucsra, read_status, write_status);
     take_over(rig, rig->uart->r_ucsrb, NULL, write_control);
     take_over(rig, rig->twi->r_twcr, NULL, write_twi);
     take_over(rig, rig->twi->r_twdr, NULL, write_twi_data);
+    take_over(rig, rig->spi->r_spdr, NULL, write_spi);
+    take_over(rig, rig->spi->r_spsr, read_spi_status, write_spi_status);
+    for (int pin = 0; pin < 8; pin++)
+        avr_irq_register_notify(
+            avr_io_getirq(rig->avr, AVR_IOCTL_IOPORT_GETIRQ('B'), pin), pin_changed, rig);
     rig->io.kind = "rig";
     rig->io.reset = reset;
     avr_register_io(rig->avr, &rig->io);
@@ -363,7 +484,8 @@ void rig_free(struct rig *rig)
 {
     avr_terminate(rig->avr);
     free(rig->avr);
-    free(rig->log);
+    free(rig->log.bytes);
+    free(rig->wire.bytes);
     free(rig);
 }
 
@@ -411,17 +533,35 @@ uint32_t rig_take(struct rig *rig, uint8_t *byte)
     return gone->bit;
 }
 
-/* Takes what the panel's bus carried; only whole transactions. */
-uint32_t rig_log(struct rig *rig, uint8_t *bytes, uint32_t room)
+static uint32_t take(struct log *log, size_t end, uint8_t *bytes, uint32_t room)
 {
-    size_t end = rig->open && rig->addressed ? rig->transaction : rig->log_size;
     if (end > room)
         return 0;
-    memcpy(bytes, rig->log, end);
-    memmove(rig->log, rig->log + end, rig->log_size - end);
-    rig->log_size -= end;
-    rig->transaction -= end;
+    memcpy(bytes, log->bytes, end);
+    memmove(log->bytes, log->bytes + end, log->size - end);
+    log->size -= end;
     return (uint32_t)end;
+}
+
+/* Takes what the panel's TWI carried; only whole transactions. */
+uint32_t rig_log(struct rig *rig, uint8_t *bytes, uint32_t room)
+{
+    size_t end = rig->open && rig->addressed ? rig->transaction : rig->log.size;
+    uint32_t taken = take(&rig->log, end, bytes, room);
+    rig->transaction -= taken;
+    return taken;
+}
+
+/* Takes what a panel on SPI has seen. */
+uint32_t rig_wire(struct rig *rig, uint8_t *bytes, uint32_t room)
+{
+    return take(&rig->wire, rig->wire.size, bytes, room);
+}
+
+/* The fewest cycles that a bit on SPI has taken. */
+uint32_t rig_spi_fastest(struct rig *rig)
+{
+    return rig->spi_fastest;
 }
 
 void rig_panel(struct rig *rig, bool absent, bool stuck, long nack_after)
