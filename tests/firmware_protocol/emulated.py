@@ -116,6 +116,12 @@ class Board:
         self.c.rig_hang(self.rig)
 
     @property
+    def eeprom(self) -> bytes:
+        content = (ctypes.c_uint8 * 1024)()
+        self.c.rig_eeprom(self.rig, content)
+        return bytes(content)
+
+    @property
     def overruns(self) -> int:
         return int(self.c.rig_overruns(self.rig))
 

@@ -171,6 +171,24 @@ def test_a_restart_in_the_middle(board: Board, trouble: Callable[[Board], None],
     assert link.stats.sessions == 2
 
 
+def test_each_start_has_another_number_and_a_loop_of_resets_spares_the_eeprom(board: Board) -> None:
+    held: list[tuple[int, bytes]] = []
+    for trouble in ["first", *["reset"] * 3, "hang", "power", *["reset"] * 260, "power", "power", "hang", "reset"]:
+        if trouble == "hang":
+            board.hang()
+            board.run(board.cycle + HZ)
+        elif trouble != "first":
+            board.reset(power=trouble == "power")
+            board.run(board.cycle + HZ // 20)
+        *_, frame = FrameDecoder().feed(board.output(115200))
+        assert frame is not None
+        boot, eeprom = decode(frame).boot, board.eeprom
+        if held:
+            assert boot != held[-1][0]
+            assert (eeprom != held[-1][1]) == (trouble == "power")
+        held.append((boot, eeprom))
+
+
 @pytest.mark.parametrize(
     ("panel", "fault"),
     [

@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import shutil
+import subprocess
+from pathlib import Path
+
 import pytest
 from c_core import FIRMWARE, Core, made
 from hypothesis import given
@@ -21,6 +25,38 @@ byte = st.integers(0, 255)
 @pytest.fixture(scope="module")
 def core(tmp_path_factory: pytest.TempPathFactory) -> Core:
     return Core(made("host", "host/libpaneldraw.so", tmp_path_factory.mktemp("build"), "cc"))
+
+
+@pytest.mark.parametrize(
+    ("wrong", "complaint"),
+    [
+        ({}, ""),
+        ({"PD_RING_SIZE": 500}, "PD_RING_SIZE must be a power of two"),
+        ({"PD_RING_SIZE": 131072}, "PD_RING_SIZE must be a power of two up to 65536"),
+        ({"PD_RING_SIZE": 0}, "PD_RING_SIZE must be a power of two"),
+        ({"PD_RING_SIZE": 256}, "PD_RING_SIZE must hold a frame"),
+        ({"PD_RING_SIZE": 256, "PD_MAX_PAYLOAD": 202}, ""),
+        ({"PD_RING_SIZE": 256, "PD_MAX_PAYLOAD": 203}, "PD_RING_SIZE must hold a frame"),
+        ({"PD_RING_SIZE": 65536}, ""),
+        ({"PD_MAX_PAYLOAD": 31}, "PD_MAX_PAYLOAD must be 32 to 250"),
+        ({"PD_MAX_PAYLOAD": 251}, "PD_MAX_PAYLOAD must be 32 to 250"),
+        ({"PD_TX_SIZE": 256}, "PD_TX_SIZE must be a power of two up to 128"),
+        ({"PD_TX_SIZE": 100}, "PD_TX_SIZE must be a power of two up to 128"),
+        ({"PD_TX_SIZE": 64}, "hello_reply_fits"),
+        ({"PD_BUS": 3}, "PD_BUS must be"),
+        ({"PD_BUS": "PD_BUS_IS_SPI", "PD_CONTROL_EACH": 1}, "PD_CONTROL_EACH must be 0 on SPI"),
+    ],
+)
+def test_a_port_that_cannot_work_does_not_compile(tmp_path: Path, wrong: dict[str, object], complaint: str) -> None:
+    if not shutil.which("cc"):
+        pytest.skip("cc is not installed")
+    changes = "".join(f"#undef {name}\n#define {name} {value}\n" for name, value in wrong.items())
+    (tmp_path / "port.h").write_text(f'#include "{FIRMWARE}/host/port.h"\n{changes}')
+    folders = [f"-I{tmp_path}", f"-I{FIRMWARE}/core"]
+    command = ["cc", "-std=c99", "-Wall", "-Wextra", "-Werror", "-fsyntax-only", *folders, f"{FIRMWARE}/core/link.c"]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert (done.returncode == 0) == (complaint == ""), done.stderr
+    assert complaint in done.stderr
 
 
 def conversations() -> dict[str, list[str]]:

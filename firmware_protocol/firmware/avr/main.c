@@ -10,7 +10,12 @@
 
 static volatile uint16_t milliseconds;
 static uint8_t cause __attribute__((section(".noinit")));
-static uint16_t boot_count EEMEM;
+/* The number of this start. Its upper half counts in the EEPROM how often RAM has lost the lower one: a loop of resets
+ * wears out nothing.
+ */
+static uint16_t boot __attribute__((section(".noinit")));
+static uint16_t boot_inverted __attribute__((section(".noinit")));
+static uint8_t power_ons EEMEM;
 
 /* A watchdog that has fired stays on, at its shortest; this runs before anything takes long. */
 void pd_early(void) __attribute__((naked, used, section(".init3")));
@@ -81,11 +86,15 @@ ISR(TIMER0_COMPA_vect)
     milliseconds++;
 }
 
-static uint16_t count_boot(void)
+static void count_boot(void)
 {
-    uint16_t boot = eeprom_read_word(&boot_count) + 1;
-    eeprom_update_word(&boot_count, boot);
-    return boot;
+    if (boot == (uint16_t)~boot_inverted) {
+        boot = (boot & 0xFF00) | (uint8_t)(boot + 1);
+    } else {
+        boot = (uint16_t)(eeprom_read_byte(&power_ons) + 1) << 8;
+        eeprom_update_byte(&power_ons, boot >> 8);
+    }
+    boot_inverted = ~boot;
 }
 
 int main(void)
@@ -98,7 +107,8 @@ int main(void)
     OCR0A = F_CPU / 64 / 1000 - 1;
     TIMSK0 = _BV(OCIE0A);
     pd_port_set_rate(115200);
-    pd_start(count_boot(), cause & 0x0F);
+    count_boot();
+    pd_start(boot, cause & 0x0F);
     wdt_enable(WDTO_500MS);
     sei();
     for (;;) {

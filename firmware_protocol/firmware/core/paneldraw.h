@@ -13,13 +13,31 @@
 #define PD_BUS_IS_SPI 2
 #include "port.h"
 
-#if PD_RING_SIZE & (PD_RING_SIZE - 1)
-#error "PD_RING_SIZE must be a power of two"
-#endif
 #define PD_RING_MASK (PD_RING_SIZE - 1)
 /* What may come beside the host's credits: HELLO, POLL and delimiters. */
 #define PD_RESERVE 48
 #define PD_WINDOW (PD_RING_SIZE - PD_RESERVE)
+/* What a frame of up to 254 bytes holds besides its payload: kind, seq, checksum, one byte of COBS and the delimiter. */
+#define PD_FRAME_OVERHEAD 6
+
+#if PD_RING_SIZE < 1 || PD_RING_SIZE & (PD_RING_SIZE - 1) || PD_RING_SIZE > 65536
+#error "PD_RING_SIZE must be a power of two up to 65536: places in it are 16 bits"
+#endif
+#if PD_MAX_PAYLOAD < 32 || PD_MAX_PAYLOAD > 250
+#error "PD_MAX_PAYLOAD must be 32 to 250: a host sends no less, and a frame has one byte of COBS"
+#endif
+#if PD_MAX_PAYLOAD + PD_FRAME_OVERHEAD > PD_WINDOW
+#error "PD_RING_SIZE must hold a frame of PD_MAX_PAYLOAD and what comes beside the window"
+#endif
+#if PD_TX_SIZE < 1 || PD_TX_SIZE & (PD_TX_SIZE - 1) || PD_TX_SIZE > 128
+#error "PD_TX_SIZE must be a power of two up to 128: places in it are 8 bits"
+#endif
+#if PD_BUS != PD_BUS_IS_I2C && PD_BUS != PD_BUS_IS_SPI
+#error "PD_BUS must be PD_BUS_IS_I2C or PD_BUS_IS_SPI"
+#endif
+#if PD_BUS == PD_BUS_IS_SPI && PD_CONTROL_EACH
+#error "PD_CONTROL_EACH must be 0 on SPI, where there are no control bytes"
+#endif
 
 /* The versions of the protocol that this is. */
 #ifndef PD_OLDEST_VERSION

@@ -17,6 +17,7 @@
 #define SYSCTL(offset) REG(0x400FE000 + (offset))
 #define RESET_CAUSE 0x05C
 #define CLOCK_CONFIG 0x060
+#define CLOCKS_0 0x100 /* bit 3 watchdog */
 #define CLOCKS_1 0x104 /* bit 0 UART0, bit 4 SSI0, bit 12 I2C0 */
 #define CLOCKS_2 0x108 /* ports A, B, C, D */
 

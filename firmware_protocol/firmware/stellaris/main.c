@@ -13,6 +13,12 @@
 #define UART_IRQ 5
 enum { BUSY = 0x08, RX_EMPTY = 0x10, TX_FULL = 0x20 };
 
+/* Its second time-out without a sign of life is a reset. */
+#define WATCHDOG(offset) REG(0x40000000 + (offset))
+#define WATCHDOG_LOAD 0x00
+#define WATCHDOG_CONTROL 0x08
+#define WATCHDOG_CLEAR 0x0C
+
 #define TICK(offset) REG(0xE000E010 + (offset))
 #define ENABLE_IRQ REG(0xE000E100)
 
@@ -70,6 +76,7 @@ void pd_port_set_rate(uint32_t rate)
 static void init(void)
 {
     SYSCTL(CLOCK_CONFIG) = (SYSCTL(CLOCK_CONFIG) & ~0x3F1UL) | CRYSTAL << 6;
+    SYSCTL(CLOCKS_0) = 1 << 3;
     SYSCTL(CLOCKS_1) = 1 << 12 | 1 << 4 | 1;
     SYSCTL(CLOCKS_2) = 0x0F;
     for (volatile int wait = 8; wait; wait--)
@@ -81,6 +88,8 @@ static void init(void)
     ENABLE_IRQ = 1 << UART_IRQ;
     TICK(4) = CLOCK / 1000 - 1;
     TICK(0) = 7;
+    WATCHDOG(WATCHDOG_LOAD) = CLOCK / 4;
+    WATCHDOG(WATCHDOG_CONTROL) = 3;
 }
 
 int main(void)
@@ -94,6 +103,7 @@ int main(void)
         PD_GUARDED(now = pd_milliseconds);
         pd_poll(now);
         transmit();
+        WATCHDOG(WATCHDOG_CLEAR) = 1;
     }
 }
 

@@ -11,37 +11,59 @@ enum { NOT_FULL = 0x02, CAME = 0x04, BUSY = 0x10 };
 #define DC 7
 #define CARD_SELECT 0
 
-/* Waits for what the status says, and reads away what comes in, which nobody wants and QEMU stops for. */
-static void wait(uint32_t mask, uint32_t value)
+static void bus_on(void)
+{
+    SSI(SSI_PRESCALER) = 2; /* 4 MHz */
+    SSI(SSI_FRAME) = 0x07;
+    SSI(SSI_ENABLE) = 0x02;
+}
+
+/* Waits for what the status says, and reads away what comes in, which nobody wants and QEMU stops for; false if that
+ * takes longer than it can.
+ */
+static bool wait(uint32_t mask, uint32_t value)
 {
     uint32_t status;
+    uint16_t since = pd_milliseconds;
     do {
+        if ((uint16_t)(pd_milliseconds - since) > 20)
+            return false;
         status = SSI(SSI_STATUS);
         if (status & CAME)
             (void)SSI(SSI_DATA);
     } while ((status & mask) != value);
+    return true;
 }
 
 /* There is no acknowledgement: what a control byte says on I2C, the D/C line says here. */
-void pd_port_bus_start(void)
+static enum pd_fault write_all(void)
 {
     bool control = false;
     for (;;) {
         uint16_t step = pd_bus_next();
         if (step > 0xFF) {
-            wait(BUSY | CAME, 0);
+            if (!wait(BUSY | CAME, 0))
+                return PD_BUS_STUCK;
             if (step == PD_STOP)
-                break;
+                return PD_OK;
             control = true;
         } else if (control) {
             PORT_C(PIN(DC)) = step == 0x40 ? 1 << DC : 0;
             control = false;
         } else {
-            wait(NOT_FULL, NOT_FULL);
+            if (!wait(NOT_FULL, NOT_FULL))
+                return PD_BUS_STUCK;
             SSI(SSI_DATA) = step;
         }
     }
-    pd_bus_done(PD_OK);
+}
+
+void pd_port_bus_start(void)
+{
+    enum pd_fault fault = write_all();
+    if (fault)
+        bus_on();
+    pd_bus_done(fault);
 }
 
 void pd_port_bus_abort(void) {}
@@ -57,7 +79,5 @@ void pd_panel_init(void)
     PORT_D(DIRECTION) |= 1 << CARD_SELECT;
     PORT_D(DIGITAL) |= 1 << CARD_SELECT;
     PORT_D(PIN(CARD_SELECT)) = 1 << CARD_SELECT;
-    SSI(SSI_PRESCALER) = 2; /* 4 MHz */
-    SSI(SSI_FRAME) = 0x07;
-    SSI(SSI_ENABLE) = 0x02;
+    bus_on();
 }

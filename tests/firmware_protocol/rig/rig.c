@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <simavr/avr_eeprom.h>
 #include <simavr/avr_ioport.h>
 #include <simavr/avr_spi.h>
 #include <simavr/avr_twi.h>
@@ -438,6 +439,12 @@ static void silent(avr_t *avr, const int level, const char *format, va_list list
     (void)list;
 }
 
+/* What RAM holds of whatever was there, and where `rig_untouched` looks for it. */
+static void lose_ram(struct rig *rig)
+{
+    memset(rig->avr->data + 0x100, 0xA5, rig->avr->ramend + 1 - 0x100);
+}
+
 struct rig *rig_new(const char *elf)
 {
     elf_firmware_t firmware = {0};
@@ -476,7 +483,7 @@ struct rig *rig_new(const char *elf)
     rig->io.next = NULL;
     avr_irq_register_notify(rig->avr->interrupts.irq + AVR_INT_IRQ_RUNNING, entered, rig);
     reset(&rig->io);
-    memset(rig->avr->data + 0x100, 0xA5, rig->avr->ramend + 1 - 0x100);
+    lose_ram(rig);
     return rig;
 }
 
@@ -571,10 +578,12 @@ void rig_panel(struct rig *rig, bool absent, bool stuck, long nack_after)
     rig->nack_after = nack_after;
 }
 
-/* Pulls the reset pin, or cuts the power for a moment. */
+/* Pulls the reset pin, or cuts the power. */
 void rig_reset(struct rig *rig, bool power)
 {
     avr_reset(rig->avr);
+    if (power)
+        lose_ram(rig);
     *reg(rig, rig->avr->reset_flags.porf.reg) |= power ? PORF : EXTRF;
 }
 
@@ -585,6 +594,12 @@ void rig_hang(struct rig *rig)
     rig->avr->flash[rig->avr->flashend] = 0xCF;
     rig->avr->sreg[S_I] = 0;
     rig->avr->pc = rig->avr->flashend - 1;
+}
+
+void rig_eeprom(struct rig *rig, uint8_t *bytes)
+{
+    avr_eeprom_desc_t all = {bytes, 0, 1024};
+    avr_ioctl(rig->avr, AVR_IOCTL_EEPROM_GET, &all);
 }
 
 /* Bytes of RAM below the deepest that the stack has reached, above the variables. */
