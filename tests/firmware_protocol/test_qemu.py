@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import re
 import shutil
+import socket
 import subprocess
 from collections.abc import Iterator
 from pathlib import Path
@@ -13,7 +14,7 @@ import numpy as np
 import pytest
 from c_core import made
 
-from firmware_protocol import HostLink
+from firmware_protocol import DeviceResetError, Fault, HostLink, PanelFaultError
 from firmware_protocol.messages import PanelBus
 
 serial = pytest.importorskip("serial", reason="pyserial is not installed")
@@ -26,7 +27,9 @@ class Machine:
 
     def __init__(self, board: str, elf: Path, width: int, height: int) -> None:
         self.width, self.height = width, height
+        self.debugger = elf.with_suffix(".gdb")
         joints = ["-display", "none", "-serial", "pty", "-qmp", "stdio"]
+        joints += ["-gdb", f"unix:{self.debugger},server=on,wait=off"]
         self.process = subprocess.Popen(
             ["qemu-system-arm", "-M", board, "-kernel", str(elf), *joints],
             stdin=subprocess.PIPE,
@@ -65,6 +68,29 @@ class Machine:
         seen = np.frombuffer(pixels, np.uint8).reshape(height, width, 3)
         assert (seen == seen[::MAGNIFIED, ::MAGNIFIED].repeat(MAGNIFIED, 0).repeat(MAGNIFIED, 1)).all()
         return seen[::MAGNIFIED, ::MAGNIFIED, 0]
+
+    def debug(self, *commands: str) -> None:
+        """Stop the machine, do what the commands of gdb's remote protocol say, and let it go on."""
+        with socket.socket(socket.AF_UNIX) as line:
+            line.settimeout(10)
+            line.connect(str(self.debugger))
+            for command in (*commands, "D"):
+                line.sendall(f"+${command}#{sum(command.encode()) & 0xFF:02x}".encode())
+                answer = b""
+                while not (found := re.search(rb"\$(?!T)(.*)#..", answer)):  # T tells that the machine has stopped
+                    came = line.recv(1000)
+                    assert came, "QEMU has ended"
+                    answer += came
+                assert found[1][:1] in (b"O", b"m"), (command, answer)
+
+    def hang(self) -> None:
+        """Send the core into an endless loop, as a fault in the firmware would."""
+        knows_registers = "qXfer:features:read:target.xml:0,10"
+        self.debug(knows_registers, "M20001000,2:fee7", "Pf=00100020")
+
+    def stop_spi(self) -> None:
+        reaches_peripherals = "Qqemu.PhyMemMode:1"
+        self.debug(reaches_peripherals, "M40008004,4:00000000", "Qqemu.PhyMemMode:0")
 
     def close(self) -> None:
         self.process.terminate()
@@ -108,6 +134,35 @@ def test_qemus_i2c_panel_shows_what_was_sent(machine: Machine, tmp_path: Path) -
         np.testing.assert_array_equal(machine.screen(tmp_path / "screen.ppm"), 255 - pictures[7] * 255)
         assert link.stats.resent == 0
         assert link.status().overflows == 0
+
+
+@pytest.mark.parametrize(
+    "machine",
+    [("lm3s811", 96, 16), pytest.param(("lm3s6965", 128, 64), marks=pytest.mark.thorough)],
+    indirect=True,
+)
+def test_the_watchdog_ends_an_endless_loop(machine: Machine) -> None:
+    with HostLink(serial.Serial(machine.port, 115200)) as link:
+        link.write([(False, b"\xae")])
+        machine.hang()
+        with pytest.raises(DeviceResetError):
+            link.write([(False, b"\xae")])
+        link.write([(False, b"\xae")])
+        assert link.stats.sessions == 2
+
+
+@pytest.mark.parametrize("machine", [("lm3s6965", 128, 64)], indirect=True)
+def test_an_spi_that_stops_is_a_fault_and_comes_back(machine: Machine, tmp_path: Path) -> None:
+    picture = np.random.default_rng(3).integers(0, 16, (64, 128))
+    packed = (picture[:, ::2] << 4 | picture[:, 1::2]).astype(np.uint8)
+    with HostLink(serial.Serial(machine.port, 115200)) as link:
+        machine.stop_spi()
+        with pytest.raises(PanelFaultError) as caught:
+            link.write([(True, bytes(100))])
+        assert caught.value.fault == Fault.BUS_STUCK
+        link.write([(False, b"\xae\xa0\x40\xa4\x81\x40\xaf\x15\x00\x3f\x75\x00\x3f"), (True, packed.tobytes())])
+        np.testing.assert_array_equal(machine.screen(tmp_path / "screen.ppm"), picture * 17)
+        assert link.stats.sessions == 1
 
 
 @pytest.mark.thorough
