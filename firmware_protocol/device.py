@@ -88,8 +88,9 @@ class Device:
     Parameters
     ----------
     write : callable
-        Called with the bytes of one transaction on the panel's bus, control byte first (00 commands, 40 data; on SPI it
-        stands for the D/C line), or with no bytes to see whether the panel answers. Raises OSError where the panel does not. See `SMBusWriter`.
+        Called with the bytes of one transaction on the panel's bus, control byte first (00 commands, 40 data; on SPI
+        it stands for the D/C line), or with no bytes to see whether the panel answers. Raises OSError where the panel
+        does not. See `SMBusWriter`.
     profile : HelloReply, optional
         What the device says of itself; ``nonce``, ``version``, ``boot``, ``cause`` and ``present`` are filled in by
         the device. Default: a 128 x 64 SSD1306 at 3C behind an ATmega328P.

@@ -75,7 +75,6 @@ class SerialTransport:
     there is no port /dev/ttyACM99: plug the board in or check the name
     """
 
-    wire = "serial"
     # The headers of tokens. Those of short data are spared, which no plan would be much cheaper for knowing.
     cost = Cost(command=1, data=1)
 
@@ -97,6 +96,7 @@ class SerialTransport:
         if not named and not all(callable(getattr(port, name, None)) for name in ("read", "write", "open", "close")):
             raise TypeError(f"port must be a name, a URL or an object with pyserial's interface, not {port!r}")
         self._answered = False
+        self._fresh = False  # whether nothing was sent since the last reset
         opened = _open(os.fspath(port)) if named else port
         self.name = str(getattr(opened, "name", None) or getattr(opened, "port", None) or type(opened).__name__)
         try:
@@ -111,6 +111,11 @@ class SerialTransport:
     def device(self) -> HelloReply:
         """What the board said of itself and its panel."""
         return self.link.device
+
+    @property
+    def wire(self) -> str:
+        """The bus between board and panel: ``"i2c"``, ``"spi"``, or ``"serial"`` where the board has none."""
+        return {1: "i2c", 2: "spi"}.get(self.device.bus, "serial")
 
     @property
     def baudrate(self) -> int:
@@ -135,14 +140,19 @@ class SerialTransport:
         return self._write(((kind == DATA, payload) for kind, payload in plan), end=True)
 
     def reset(self) -> bool:
-        """Return False: the panel's reset line is the board's."""
-        return False
+        """Have the board pulse the panel's reset line, unless nothing was sent since; return whether there is one."""
+        if self.device.reset_line and not self._fresh:
+            with self._translating():
+                self.link.reset_panel()
+            self._fresh = True
+        return self.device.reset_line
 
     def close(self) -> None:
         """Leave the board at its first rate and close the port. Closing twice does nothing."""
         self.link.close()
 
     def _write(self, runs: Iterable[Run], end: bool) -> int:
+        self._fresh = False
         with self._translating():
             wire = self.link.write(runs, end=end)
         self._answered = True

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
-from emulated import HZ, Board, BoardPort
-from simulated import SimulatedPort
+from emulated import HZ, Board, BoardPort, built
+from simulated import Noise, SimulatedPort
 
 from paneldraw import Panel, simulator
-from paneldraw.controllers import SSD1306
+from paneldraw.controllers import CHIPS, SSD1306, SSD1322
 from paneldraw.demos.scenes import SCENES
 from paneldraw.errors import PanelDisconnectedError
 from paneldraw.transports import SerialTransport
@@ -138,3 +139,120 @@ def test_a_restart_in_the_middle_of_a_picture_of_the_emulated_chip(board: Board,
         np.testing.assert_array_equal(chip.pixels, 1 - noise)
         assert panel.stats.retries == 1
     assert left[0] < 0
+
+
+SPI_PIXEL = {"ssd1306": 4, "sh1106": 4, "ssd1322": 9}
+
+
+class Wire:
+    """What lies between the board's pins and a simulated chip: counts bytes and resets."""
+
+    def __init__(self, chip: Any) -> None:
+        self.chip = chip
+        self.bytes = self.resets = 0
+
+    def transfer(self, run: bytes, data: bool) -> None:
+        self.bytes += len(run)
+        self.chip.transfer(run, data)
+
+    def deselect(self) -> None:
+        self.chip.deselect()
+
+    def reset(self) -> None:
+        self.resets += 1
+        self.chip.reset()
+
+
+@pytest.fixture(scope="module", params=SPI_PIXEL)
+def spi_binaries(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
+    return built(tmp_path_factory.mktemp(request.param), BUS="spi", CHIP=request.param)
+
+
+@pytest.fixture
+def spi_board(spi_binaries: tuple[Path, Path]) -> Iterator[Board]:
+    board = Board(*spi_binaries)
+    board.run(HZ // 20)
+    yield board
+    board.close()
+
+
+def on_spi(board: Board, baudrate: int | None = None, noise: Noise | None = None) -> tuple[BoardPort, Wire, Panel]:
+    """Return the panel that the board says it has, and the simulated chip on the board's pins."""
+    port = BoardPort(board, noise=noise, seed=3)
+    transport = SerialTransport(port, baudrate, clock=port.clock)
+    said = transport.device
+    port.spi = wire = Wire(getattr(simulator, said.controller.upper())(said.width, said.height))
+    return port, wire, Panel(CHIPS[said.controller](said.width, said.height), transport)
+
+
+def noise_pictures(panel: Panel, count: int) -> Iterator[np.ndarray]:
+    rng = np.random.default_rng(4)
+    for _ in range(count):
+        yield rng.integers(0, 2**panel.depth, (panel.height, panel.width), np.uint8)
+
+
+@pytest.mark.parametrize("baudrate", [115_200, 500_000, 1_000_000])
+@pytest.mark.parametrize("noise", [None, Noise(0.001, 0.001, 0.001)], ids=["clean", "noisy"])
+def test_pictures_on_spi_by_the_emulated_chip(spi_board: Board, baudrate: int, noise: Noise | None) -> None:
+    port, wire, panel = on_spi(spi_board, baudrate, noise)
+    with panel:
+        for picture in noise_pictures(panel, 3):
+            panel.show(picture)
+            port.read()
+            np.testing.assert_array_equal(wire.chip.pixels, picture)
+        for number in range(4):
+            picture = draw(panel, number)
+            port.read()
+            np.testing.assert_array_equal(wire.chip.pixels, picture)
+        assert panel.stats.retries == 0
+    assert (wire.chip.violations, wire.chip.remarks) == ([], [])
+    assert wire.resets == 1
+
+
+def test_a_pixel_on_spi_by_the_emulated_chip(spi_board: Board) -> None:
+    port, wire, panel = on_spi(spi_board, 500_000)
+    (picture,) = noise_pictures(panel, 1)
+    with panel:
+        panel.show(picture)
+        for x, y in ((panel.width - 1, panel.height - 1), (0, 0), (64, 31)):
+            picture[y, x] ^= 1
+            port.read()
+            before, start = wire.bytes, port.clock()
+            report = panel.show(picture)
+            assert report.wire_bytes <= SPI_PIXEL[panel.controller.name] + 9
+            assert port.clock() - start < 0.0015
+            port.read()
+            assert wire.bytes - before <= SPI_PIXEL[panel.controller.name]
+            np.testing.assert_array_equal(wire.chip.pixels, picture)
+
+
+@pytest.mark.parametrize("fault", ["reset", "power", "watchdog"])
+def test_a_restart_in_the_middle_of_a_picture_on_spi(spi_board: Board, fault: str) -> None:
+    port, wire, panel = on_spi(spi_board, 115_200)
+    first, second = noise_pictures(panel, 2)
+    transfer, left = wire.transfer, [-1]
+
+    def restarting(run: bytes, data: bool) -> None:
+        left[0] -= 1
+        if left[0] == 0 and fault == "watchdog":
+            spi_board.hang()
+        elif left[0] == 0:
+            spi_board.reset(power=fault == "power")
+        transfer(run, data)
+
+    wire.transfer = restarting  # type: ignore[method-assign]
+    with panel:
+        panel.show(first)
+        resets, left[0] = wire.resets, 3
+        panel.show(second)
+        port.read()
+        np.testing.assert_array_equal(wire.chip.pixels, second)
+        assert panel.stats.retries == 1
+    assert left[0] < 0
+    assert wire.resets == resets + 2  # by the board at its start, and by the panel's
+
+
+def test_a_chip_that_is_on_spi_alone_is_refused_behind_a_board_with_i2c(board: Board) -> None:
+    port = BoardPort(board)
+    with pytest.raises(ValueError, match=r"I2C reaches.*ssd1322 is on SPI"):
+        Panel(SSD1322(), SerialTransport(port, clock=port.clock))
