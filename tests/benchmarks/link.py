@@ -21,7 +21,7 @@ import numpy.typing as npt
 from scenes import FRAMES, frames
 
 from paneldraw import Panel, simulator
-from paneldraw.controllers import SSD1306
+from paneldraw.controllers import CHIPS, SSD1306
 from paneldraw.demos.scenes import SCENES
 from paneldraw.transports import SerialTransport
 
@@ -35,6 +35,7 @@ MakeBoard = Callable[[], "Board"]
 
 CPU_WANTED = 150
 PIXEL_BYTES, PIXEL_MS = 13, 1.5
+SPI_PIXEL_BYTES = {"sh1106": 13, "ssd1322": 18}
 SCENES_AT, SCENES_WANTED = 115_200, 60
 NOISE_WANTED = 2.2
 EACH = 0.001
@@ -49,21 +50,26 @@ def run(rounds: int) -> None:
     from simulated import Noise
 
     with tempfile.TemporaryDirectory() as folder:
+
+        def maker(**settings: str) -> MakeBoard:
+            binaries = built(Path(folder) / settings.get("CHIP", "usual"), **settings)
+
+            def board() -> Board:
+                fresh = Board(*binaries)
+                fresh.run(HZ // 20)
+                return fresh
+
+            return board
+
         try:
-            binaries = built(Path(folder))
+            board = maker()
         except pytest.skip.Exception as missing:
             print(f"  without the emulated chip: {missing}")
             return
-
-        def board() -> Board:
-            fresh = Board(*binaries)
-            fresh.run(HZ // 20)
-            return fresh
-
         for baudrate, wanted in ((115_200, 10.5), (500_000, 33.0), (1_000_000, None)):
             whole_pictures(board, baudrate, wanted)
         for baudrate in (115_200, 500_000):
-            pixels(board, baudrate)
+            pixels(board, baudrate, PIXEL_BYTES)
         scenes(board)
         kinds = {
             "flipped": Noise(flip=EACH),
@@ -74,19 +80,32 @@ def run(rounds: int) -> None:
         for baudrate in (115_200, 500_000):
             for name, noise in kinds.items():
                 noisy(board, baudrate, name, noise)
+        for chip, wanted_bytes in SPI_PIXEL_BYTES.items():
+            board = maker(BUS="spi", CHIP=chip)
+            print(f"  {chip} on the board's SPI:")
+            for baudrate in (115_200, 500_000, 1_000_000):
+                whole_pictures(board, baudrate, None)
+            pixels(board, 500_000, wanted_bytes)
 
 
 class Screen:
-    """A panel with the emulated board behind it, and the simulated chip behind that."""
+    """The panel that the emulated board says it has, and the simulated chip behind the board."""
 
     def __init__(self, board: Board, baudrate: int, noise: Noise | None) -> None:
         from emulated import BoardPort
 
         self.port: BoardPort = BoardPort(board, noise=noise, seed=5)
-        self.chip = simulator.SSD1306(128, 64, history=1)
-        self.port.panel = self.chip.write
         transport = SerialTransport(self.port, baudrate, clock=self.port.clock)
-        self.panel = Panel(SSD1306(128, 64), transport)
+        said = transport.device
+        size = said.width, said.height
+        self.chip = getattr(simulator, said.controller.upper())(*size, history=1)
+        self.port.panel, self.port.spi = self.chip.write, self.chip
+        self.panel = Panel(CHIPS[said.controller](*size), transport)
+
+    def random_pictures(self, count: int) -> list[npt.NDArray[np.uint8]]:
+        """Pictures of noise, the same in each run."""
+        shape = count, self.panel.height, self.panel.width
+        return list(np.random.default_rng(2).integers(0, 2**self.panel.depth, shape, np.uint8))
 
     def shows(self, picture: npt.NDArray[np.uint8]) -> bool:
         """Whether an eye would see the picture."""
@@ -117,39 +136,34 @@ def screen(board: MakeBoard, baudrate: int, noise: Noise | None = None) -> Itera
     made.close()
 
 
-def random_pictures(count: int) -> list[npt.NDArray[np.uint8]]:
-    """Pictures of noise, the same in each run."""
-    return list(np.random.default_rng(2).integers(0, 2, (count, 64, 128), np.uint8))
-
-
 def whole_pictures(board: MakeBoard, baudrate: int, wanted: float | None) -> None:
     """Print random whole pictures a second, and how much of the wire they take."""
-    first, *pictures = random_pictures(31 if measure.SAMPLE else 4)
     with screen(board, baudrate) as one:
+        first, *pictures = one.random_pictures(31 if measure.SAMPLE else 4)
         one.show(first)
         rate = one.show_all(pictures)
+        size = first.size * one.panel.depth // 8
     aim = f" (wanted {wanted})" if wanted else ""
-    share = 100 * rate * 1024 / (baudrate / 10)
+    share = 100 * rate * size / (baudrate / 10)
     print(f"  {baudrate:>9} baud: {rate:5.2f} random pictures/s{aim}, {share:.0f} % of the wire")
 
 
-def pixels(board: MakeBoard, baudrate: int) -> None:
+def pixels(board: MakeBoard, baudrate: int, wanted: int) -> None:
     """Print what single pixels take, those right after a whole picture included."""
     pick = np.random.default_rng(3)
-    pictures = random_pictures(20 if measure.SAMPLE else 2)
     trips = []
     with screen(board, baudrate) as one:
-        for picture in pictures:
+        for picture in one.random_pictures(20 if measure.SAMPLE else 2):
             one.show(picture)
             for _ in range(5):
-                picture[pick.integers(64), pick.integers(128)] ^= 1
+                picture[pick.integers(one.panel.height), pick.integers(one.panel.width)] ^= 1
                 trips.append(one.show(picture))
         if not one.shows(picture):
             raise RuntimeError("the panel shows another picture")
     sizes, seconds = zip(*trips, strict=True)
     aim = f" (wanted {PIXEL_MS})" if baudrate == 500_000 else ""
     print(
-        f"  {baudrate:>9} baud: one pixel {min(sizes)} to {max(sizes)} bytes (wanted {PIXEL_BYTES}), "
+        f"  {baudrate:>9} baud: one pixel {min(sizes)} to {max(sizes)} bytes (wanted {wanted}), "
         f"round trip {1000 * median(seconds):.2f}, at most {1000 * max(seconds):.2f} ms{aim}"
     )
 
@@ -173,21 +187,21 @@ def scenes(board: MakeBoard) -> None:
 
 def noisy(board: MakeBoard, baudrate: int, name: str, noise: Noise) -> None:
     """Print how many screens come right over a noisy line, and what they cost on the wire, both ways."""
-    pictures = random_pictures(SCREENS if measure.SAMPLE else 4)
+    count = SCREENS if measure.SAMPLE else 4
 
-    def cost(noise: Noise | None, pictures: list[npt.NDArray[np.uint8]]) -> tuple[int, float]:
+    def cost(noise: Noise | None, count: int) -> tuple[int, float]:
         with screen(board, baudrate, noise) as one:
             before = one.port.carried
             right = 0
-            for picture in pictures:
+            for picture in one.random_pictures(count):
                 one.show(picture)
                 right += one.shows(picture)
-            return right, (one.port.carried - before) / len(pictures)
+            return right, (one.port.carried - before) / count
 
-    _, once = cost(None, pictures[:10])
-    right, each = cost(noise, pictures)
+    _, once = cost(None, min(count, 10))
+    right, each = cost(noise, count)
     print(
-        f"  {baudrate:>9} baud: 1 in 1000 bytes {name}: {right} of {len(pictures)} screens right, "
+        f"  {baudrate:>9} baud: 1 in 1000 bytes {name}: {right} of {count} screens right, "
         f"wire cost {each / once:.2f} (wanted {NOISE_WANTED})"
     )
 
