@@ -50,48 +50,65 @@ def levels(ram: Bytes, packing: Packing) -> Picture:
     return np.unpackbits(flat, axis=0, bitorder="little") if packing.rows == 8 else flat
 
 
-class Counter:
+class Counter(NamedTuple):
     """A pointer along one axis of the RAM: it counts to the end of its window and starts there again.
 
     From a place past its window it counts on to the end of the RAM, and on from 0.
     """
 
-    __slots__ = ("at", "first", "last", "size")
+    at: int
+    first: int
+    last: int
+    size: int
 
-    def __init__(self, at: int, first: int, last: int, size: int) -> None:
-        self.at, self.first, self.last, self.size = at, first, last, size
-
-    @property
-    def room(self) -> int:
-        """How many cells there are from here to the next turn."""
-        return (self.last if self.at <= self.last else self.size - 1) - self.at + 1
-
-    def step(self, count: int) -> bool:
-        """Count on, to the next turn at the most; tell whether that was the end of the window."""
-        self.at += count
-        if self.at == self.last + 1:
-            self.at = self.first
-            return True
-        self.at %= self.size
-        return False
+    def moved(self, at: int) -> int:
+        """Where the pointer stands after it counted to there, which is the next turn at the most."""
+        return self.first if at == self.last + 1 else at % self.size
 
 
-def fill(ram: Bytes, cells: Bytes, along: Counter, lines: Counter) -> None:
-    """Put cells into the RAM, one line of the window after the other: as many whole lines at once as there are."""
+class Stamps:
+    """Stamps what is written with a number, or with the next one from where it meets a stamp of that number."""
+
+    __slots__ = ("cells", "number")
+
+    def __init__(self, cells: NDArray[np.uint32], number: int) -> None:
+        self.cells, self.number = cells, number
+
+    def put(self, place: tuple[slice | int, slice]) -> None:
+        """Stamp a line, or a block."""
+        cells = self.cells[place]
+        self.number += bool(cells.max() == self.number)
+        cells[...] = self.number
+
+
+def fill(ram: Bytes, cells: Bytes, along: Counter, lines: Counter, stamps: Stamps | None = None) -> tuple[int, int]:
+    """Put cells into the RAM, one line of the window after the other: as many whole lines at once as there are.
+
+    Returns
+    -------
+    tuple of int
+        Where the two pointers stand then.
+    """
+    (at, first, last, size), (line, _, bottom, _) = along, lines
+    wide = last - first + 1
     while len(cells):
-        wide = along.last - along.first + 1
-        if along.at == along.first and len(cells) > wide > 0 and lines.at <= lines.last:
-            count = min(len(cells) // wide, lines.room)
-            block = cells[: count * wide].reshape(count, wide, -1)
-            ram[lines.at : lines.at + count, along.first : along.last + 1] = block
-            lines.step(count)
-            cells = cells[count * wide :]
+        place: tuple[slice | int, slice]
+        if at == first and len(cells) > wide > 0 and line <= bottom:
+            count = min(len(cells) // wide, bottom - line + 1)
+            place, taken = (slice(line, line + count), slice(first, last + 1)), count * wide
+            ram[place] = cells[:taken].reshape(count, wide, -1)
+            line = lines.moved(line + count)
         else:
-            count = min(len(cells), along.room)
-            ram[lines.at, along.at : along.at + count] = cells[:count]
-            if along.step(count):
-                lines.step(1)
-            cells = cells[count:]
+            taken = min(len(cells), (last if at <= last else size - 1) - at + 1)
+            place = line, slice(at, at + taken)
+            ram[place] = cells[:taken]
+            if at + taken == last + 1:
+                line = lines.moved(line + 1)
+            at = along.moved(at + taken)
+        if stamps is not None:
+            stamps.put(place)
+        cells = cells[taken:]
+    return at, line
 
 
 # commands of pointers and windows; `chip` is a DisplayChip
@@ -101,28 +118,31 @@ def page_pointer(pages: int = 8, *, only_in_page_mode: bool = False) -> Commands
     """The page pointer: B0 + page, 00 + the column's lower four bits, 10 + its upper ones."""
 
     def check(chip: Any, sent: bytes) -> None:
-        if only_in_page_mode and chip.mode != PAGE:
+        if chip.mode != PAGE:
             chip.remark("the page pointer commands B0-B7, 00-0F and 10-1F are for page addressing mode only", sent)
 
     def low(chip: Any, sent: bytes) -> None:
-        check(chip, sent)
+        if only_in_page_mode:
+            check(chip, sent)
         chip.registers.column = chip.registers.column & 0xF0 | sent[0] & 0x0F
 
     def high(chip: Any, sent: bytes) -> None:
-        check(chip, sent)
+        if only_in_page_mode:
+            check(chip, sent)
         column = (sent[0] & 0x0F) << 4 | chip.registers.column & 0x0F
         if column & 0xF0 >= chip.columns:
             chip.complain(f"there is no column past {chip.columns - 1}", sent)
         chip.registers.column = column & (1 << (chip.columns - 1).bit_length()) - 1
 
     def page(chip: Any, sent: bytes) -> None:
-        check(chip, sent)
+        if only_in_page_mode:
+            check(chip, sent)
         chip.registers.page = sent[0] & 0x0F
 
     return {
-        **dict.fromkeys(range(0x10), Command(0, low, {"column": 0})),
-        **dict.fromkeys(range(0x10, 0x20), Command(0, high, {"column": 0})),
-        **dict.fromkeys(range(0xB0, 0xB0 + pages), Command(0, page, {"page": 0})),
+        **dict.fromkeys(range(0x10), Command(0, low, {"column": 0}, points=True)),
+        **dict.fromkeys(range(0x10, 0x20), Command(0, high, {"column": 0}, points=True)),
+        **dict.fromkeys(range(0xB0, 0xB0 + pages), Command(0, page, {"page": 0}, points=True)),
     }
 
 
@@ -163,6 +183,6 @@ def windows(
             registers[axis] = registers[f"{axis}_start"] = start
             registers[f"{axis}_end"] = end
 
-        return Command(2, act, {axis: 0, f"{axis}_start": 0, f"{axis}_end": size - 1})
+        return Command(2, act, {axis: 0, f"{axis}_start": 0, f"{axis}_end": size - 1}, points=True)
 
     return {column_opcode: command("column", columns), line_opcode: command(line_name, lines)}

@@ -33,7 +33,7 @@ class Device(Protocol):
         """Note that a bus call is over; it put `wire_bytes` bytes on the wire for this chip and ended at `seconds`."""
 
 
-@dataclass
+@dataclass(slots=True)
 class _Message:
     """One START-to-START piece of a transfer: bytes to write, or a number of bytes to read."""
 
@@ -42,10 +42,6 @@ class _Message:
     length: int | None = None
     answer: bytes = b""
     stop: bool = False
-
-    @property
-    def size(self) -> int:
-        return len(self.payload) if self.length is None else self.length
 
 
 class _ShortTransferError(Exception):
@@ -240,7 +236,7 @@ class I2CBus(Wire):
         parts = [
             _Message(
                 m.addr,
-                b"" if m.flags & _READ else ctypes.string_at(m.buf, m.len),
+                b"" if m.flags & _READ else m.buf[: m.len],
                 m.len if m.flags & _READ else None,
                 stop=bool(m.flags & _STOP and self.funcs & _MANGLING),
             )
@@ -433,18 +429,20 @@ class I2CBus(Wire):
         """Put one message on the wire, as far as chip and faults let it."""
         self.messages += 1
         self.bytes += 1
-        fault = self._due(part.address)
+        fault = self._due(part.address) if self._faults else None
         if device is None or (fault and fault.at_byte is None):
             self._raise(fault)
             raise os_error(EREMOTEIO)
-        got = part.size if fault is None else fault.reach(part.size)
+        size = len(part.payload) if part.length is None else part.length
+        got = size if fault is None else fault.reach(size)
         self.bytes += got
         if part.length is None:
             device.write(part.payload[:got])
-            self.bytes += got < part.size
+            self.bytes += got < size
         else:
             part.answer = device.read(got)
-        self._raise(fault)
+        if fault is not None:
+            self._raise(fault)
 
     def _raise(self, fault: Fault | None) -> None:
         if fault is None:

@@ -12,7 +12,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from .frames import Frame, Picture
+from .frames import Frame, Picture, Progress
 
 _STATUS_OFF = 0x40
 
@@ -32,8 +32,9 @@ class Chip(ABC):
     Attributes
     ----------
     frames : collections.deque of Frame
-        One frame for every bus call (one ``i2c_rdwr`` or one SMBus call) that changed what the eye sees, unless the
-        panel was dark before and after. A driver that sends a picture in several calls leaves several frames.
+        The whole pictures that were shown, whoever drives the chip; the last one may still be growing. A picture that
+        comes in several calls is one frame, and a call that sets the pointer and writes data is one (`Progress` has
+        the rule); so is a command that changes what is seen. What leaves the panel as it was is none.
     violations : list of str
         What the chip was sent against its datasheet and what changes the picture, or may: each rule once, with the
         bytes that broke it first. Clear it as you like.
@@ -52,7 +53,9 @@ class Chip(ABC):
 
     registers: Registers
 
-    def __init__(self, width: int, height: int, *, history: int | None, seed: int | None) -> None:
+    def __init__(
+        self, width: int, height: int, *, history: int | None, seed: int | None, cells: tuple[int, ...] = (0,)
+    ) -> None:
         self.width, self.height = width, height
         self.frames: deque[Frame] = deque(maxlen=history)
         self.violations: list[str] = []
@@ -60,6 +63,8 @@ class Chip(ABC):
         self._random = random.Random(seed)
         self._seen: Picture = np.zeros((height, width), np.uint8)
         self._unframed_bytes = 0
+        self._progress = Progress(cells)
+        self._last: tuple[Frame | None, int] = (None, 0)
         self.power_cycle()
 
     # power
@@ -107,11 +112,21 @@ class Chip(ABC):
             Bytes that this call put on the wire for this chip.
         """
         self._unframed_bytes += wire_bytes
+        picture = self._progress.end_call(seconds, self._unfilled)
         pixels = self.pixels
         if pixels is not self._seen and not np.array_equal(pixels, self._seen):
-            self.frames.append(Frame(pixels, seconds, self._unframed_bytes, self.max_level))
-            self._unframed_bytes = 0
+            self._show(pixels, seconds, picture)
         self._seen = pixels
+
+    def _show(self, pixels: Picture, seconds: float, picture: int) -> None:
+        """Record a frame, in place of the last one if that is the same picture, not yet whole."""
+        frame, number = self._last
+        if picture and picture == number and self.frames and self.frames[-1] is frame:
+            self._unframed_bytes += frame.wire_bytes
+            self.frames.pop()
+        self.frames.append(Frame(pixels, seconds, self._unframed_bytes, self.max_level))
+        self._last = self.frames[-1] if self.frames else None, picture
+        self._unframed_bytes = 0
 
     # what can be seen
 
@@ -148,6 +163,11 @@ class Chip(ABC):
         _say(self.remarks, rule, sent)
 
     # what a chip says
+
+    @property
+    def _unfilled(self) -> bool:
+        """Whether the pointer stands within a window that it has not filled to the end."""
+        return False
 
     @abstractmethod
     def _lose_ram(self) -> None:

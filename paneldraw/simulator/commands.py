@@ -25,11 +25,14 @@ class Command:
         What it does, given the chip and all its bytes, the opcode first.
     registers : mapping of str
         The registers that it sets, and what reset gives them.
+    points : bool
+        Whether it sets the pointer to where data goes. Default: False.
     """
 
     arguments: int
     act: Act
     registers: Mapping[str, Any] = field(default_factory=dict)
+    points: bool = False
 
 
 Commands = dict[int, Command]

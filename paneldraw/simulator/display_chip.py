@@ -8,7 +8,7 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from .addressing import DOWN, PAGE, PAGES, Bytes, Counter, Packing, fill, levels
+from .addressing import DOWN, PAGE, PAGES, Bytes, Counter, Packing, Stamps, fill, levels
 from .chip import Chip
 from .commands import UNKNOWN, Command, Commands
 from .frames import Picture
@@ -77,6 +77,7 @@ class DisplayChip(Chip):
     """Whether arguments come with D/C high, and data only after a command that says so (`registers.writing`)."""
 
     _table: ClassVar[tuple[Command, ...]]
+    _has: ClassVar[frozenset[str]]
 
     def __init_subclass__(cls) -> None:
         super().__init_subclass__()
@@ -84,6 +85,7 @@ class DisplayChip(Chip):
             cls._table = tuple(cls.commands.get(opcode, UNKNOWN) for opcode in range(256))
             cls.reset_values = {name: value for command in cls._table for name, value in command.registers.items()}
             cls.max_level = 2**cls.packing.depth - 1
+            cls._has = frozenset(cls.reset_values)
 
     def __init__(
         self,
@@ -103,12 +105,12 @@ class DisplayChip(Chip):
         self.commons, self.segments = levels(self._ram, self.packing).shape[:: -1 if self.transposed else 1]
         self._glass = self._wired(width, height, self._module(width, height, column_offset, com_pins, first_com))
         self.external_vcc = external_vcc
-        super().__init__(width, height, history=history, seed=seed)
+        super().__init__(width, height, history=history, seed=seed, cells=self._ram.shape[:2])
 
     def reset(self) -> None:
         """Pull the reset pin: registers at reset, a half-sent command forgotten, RAM as it was."""
         super().reset()
-        self._pending = bytearray()
+        self._pending = b""
         self._half_cell = b""
 
     # the wire
@@ -118,18 +120,23 @@ class DisplayChip(Chip):
 
         A command whose arguments do not fit in this write waits for them in the next, as the chip does.
         """
-        for data, run in self._runs(bytes(payload)):
-            self.transfer(run, data)
+        payload = bytes(payload)
+        if payload and payload[0] in (0x00, 0x40):  # nearly always
+            self.transfer(payload[1:], payload[0] == 0x40)
+        else:
+            for data, run in self._runs(payload):
+                self.transfer(run, data)
 
     def transfer(self, run: bytes | bytearray | memoryview, data: bool) -> None:
         """Take bytes over SPI, with the D/C line low (`data` False: commands) or high."""
         self._picture = None
-        if not data:
-            for byte in run:
-                self._obey(byte)
-        elif self.arguments_are_data:
-            self._argue(bytes(run))
-        elif run:
+        if not run:
+            return
+        if self.arguments_are_data:
+            self._take(bytes(run), data)
+        elif not data:
+            self._obey(bytes(run))
+        else:
             if self._pending:
                 self.complain("data while a command waits for its arguments", self._pending)
             self._store(np.frombuffer(run, np.uint8))
@@ -155,7 +162,7 @@ class DisplayChip(Chip):
     @property
     def mode(self) -> int:
         """The addressing mode: `ACROSS`, `DOWN` or `PAGE`."""
-        return getattr(self.registers, "mode", PAGE)
+        return self.registers.mode if "mode" in self._has else PAGE
 
     @property
     def segment_remap(self) -> bool:
@@ -181,7 +188,7 @@ class DisplayChip(Chip):
     def scan(self) -> tuple[int, int, int, bool, int]:
         """Multiplex ratio less 1, display offset, start line, whether COM lines are reversed, COM pins."""
         r = self.registers
-        return r.multiplex, r.offset, r.start_line, r.com_reversed, getattr(r, "com_pins", 0)
+        return r.multiplex, r.offset, r.start_line, r.com_reversed, r.com_pins if "com_pins" in self._has else 0
 
     def com_signals(self, setting: int) -> NDArray[np.intp]:
         """Which COM signal each pad carries under a setting of the COM pins."""
@@ -211,46 +218,50 @@ class DisplayChip(Chip):
         """The command of an opcode; chips that have several sets of commands choose here."""
         return self._table[opcode]
 
-    def _obey(self, byte: int) -> None:
-        """Take one byte of a command."""
-        if self.arguments_are_data:
-            if self._pending:
-                self.complain("a command is cut off before its arguments", self._pending)
-                self._pending.clear()
-            self.registers.writing = False
-        self._pending.append(byte)
-        self._execute()
+    def _obey(self, run: bytes) -> None:
+        """Carry out the commands of a run; the last one may have to wait for its arguments."""
+        run, at, end = self._pending + run, 0, 0
+        while at < len(run) and (end := self._execute(run, at)) > at:
+            at = end
+        self._pending = run[at:]
 
-    def _argue(self, run: bytes) -> None:
-        """Take bytes with D/C high where they are arguments first, and data only behind the command for it."""
+    def _take(self, run: bytes, data: bool) -> None:
+        """Take bytes where arguments come with D/C high, and data only behind the command for it."""
         for at, byte in enumerate(run):
-            if not self._pending:
+            if data and not self._pending:
                 if self.registers.writing:
                     self._store(np.frombuffer(run, np.uint8)[at:])
                 else:
                     self.complain("data that no command waits for is lost")
                 return
-            self._pending.append(byte)
-            self._execute()
+            if not data:
+                if self._pending:
+                    self.complain("a command is cut off before its arguments", self._pending)
+                self._pending, self.registers.writing = b"", False
+            self._pending += bytes((byte,))
+            self._pending = self._pending[self._execute(self._pending) :]
 
-    def _execute(self) -> None:
-        """Carry a command out once its arguments are there."""
-        command = self._command(self._pending[0])
-        if len(self._pending) <= command.arguments:
-            return
-        sent = bytes(self._pending)
-        self._pending.clear()
-        if sent[0] != 0xFD and getattr(self.registers, "locked", False):
+    def _execute(self, run: bytes, at: int = 0) -> int:
+        """Carry out the command there, if its arguments are; return where it ends, or where it began if it waits."""
+        command = self._command(run[at])
+        end = at + 1 + command.arguments
+        if end > len(run):
+            return at
+        sent = run[at:end]
+        if "locked" in self._has and self.registers.locked and sent[0] != 0xFD:
             self.complain("commands are locked; send FD 12 first", sent)
-        else:
-            self._half_cell = b""
-            command.act(self, sent)
+            return end
+        self._half_cell = b""
+        if command.points:
+            self._progress.pointed = True
+        command.act(self, sent)
+        return end
 
     def _store(self, data: Bytes) -> None:
         """Take data into the RAM."""
-        if self.registers.on and not self.lit:
+        if self.supply_command and self.registers.on and not self.lit:
             self.complain(f"a picture for a panel that is on without a supply ({self.supply_command}) stays dark")
-        if getattr(self.registers, "scrolling", False):
+        if "scrolling" in self._has and self.registers.scrolling:
             self.complain("data while a scroll is running; send 2E first")
         if self.column_bytes > 1:
             data = np.frombuffer(self._half_cell + data.tobytes(), np.uint8)
@@ -260,31 +271,47 @@ class DisplayChip(Chip):
 
     def _place(self, cells: Bytes) -> None:
         """Put cells where the pointer stands, and move it on."""
-        registers, mode, line = vars(self.registers), self.mode, self.line_name
+        progress, mode = self._progress, self.mode
+        progress.draw()
+        stamps = None if progress.pointed else Stamps(progress.stamps, progress.number)
         ram = self._ram
         if self.remaps_ram and self.segment_remap:
             ram = ram[:, ::-1, ::-1]
         if not self.high_first:
             ram = ram[:, :, ::-1]
-        at, last = registers["column"], self.columns - 1
-        if mode == PAGE:
-            column, page = Counter(at, 0, last, self.columns), registers[line]
-            lines = Counter(page, page, page, self.lines)
-            if not self.last_column_wraps and at + len(cells) >= self.columns:
-                if at + len(cells) > self.columns:
-                    self.complain(f"data past column {last} is lost")
-                fill(ram, cells[: max(self.columns - at, 0)], column, lines)
-                registers["column"] = self.columns
-                return
-        else:
-            column = Counter(at, registers.get("column_start", 0), registers.get("column_end", last), self.columns)
-            first, end = registers.get(f"{line}_start", 0), registers.get(f"{line}_end", self.lines - 1)
-            lines = Counter(registers[line], first, end, self.lines)
+        column, line = self._counters(mode)
+        if mode == PAGE and not self.last_column_wraps:
+            room = max(self.columns - column.at, 0)
+            if len(cells) > room:
+                self.complain(f"data past column {self.columns - 1} is lost")
+            if len(cells) >= room:  # the pointer stays behind the last column
+                cells, column = cells[:room], column._replace(last=self.columns, size=self.columns + 1)
         if mode == DOWN:
-            fill(ram.swapaxes(0, 1), cells, lines, column)
+            stamps = stamps and Stamps(stamps.cells.T, stamps.number)
+            row, at = fill(ram.swapaxes(0, 1), cells, line, column, stamps)
         else:
-            fill(ram, cells, column, lines)
-        registers["column"], registers[line] = column.at, lines.at
+            at, row = fill(ram, cells, column, line, stamps)
+        if stamps is not None:
+            progress.number = stamps.number
+        self.registers.column = at
+        setattr(self.registers, self.line_name, row)
+
+    def _counters(self, mode: int) -> tuple[Counter, Counter]:
+        """The pointer's two counters: in their windows, or the column in all of one page."""
+        registers, line = vars(self.registers), self.line_name
+        column, row = registers["column"], registers[line]
+        if mode == PAGE:
+            return Counter(column, 0, self.columns - 1, self.columns), Counter(row, row, row, self.lines)
+        first, last = registers.get("column_start", 0), registers.get("column_end", self.columns - 1)
+        top, bottom = registers.get(f"{line}_start", 0), registers.get(f"{line}_end", self.lines - 1)
+        return Counter(column, first, last, self.columns), Counter(row, top, bottom, self.lines)
+
+    @property
+    def _unfilled(self) -> bool:
+        """Whether the pointer stands within a window that it has not filled to the end."""
+        mode = self.mode
+        column, line = self._counters(mode)
+        return mode != PAGE and (column.at, line.at) != (column.first, line.first)
 
     def _look(self) -> Picture:
         if not self.lit:

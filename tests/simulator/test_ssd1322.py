@@ -100,6 +100,7 @@ class Wire:
         self.chip.transfer(bytes(sent), data=True)
 
 
+@pytest.mark.filterwarnings("ignore:Image.Image.getdata is deprecated")
 def test_luma() -> None:
     from luma.oled.device import ssd1322
     from PIL import Image
