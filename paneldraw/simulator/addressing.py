@@ -66,33 +66,24 @@ class Counter(NamedTuple):
         return self.first if at == self.last + 1 else at % self.size
 
 
-class Stamps:
-    """Stamps what is written with a number, or with the next one from where it meets a stamp of that number."""
-
-    __slots__ = ("cells", "number")
-
-    def __init__(self, cells: NDArray[np.uint32], number: int) -> None:
-        self.cells, self.number = cells, number
-
-    def put(self, place: tuple[slice | int, slice]) -> None:
-        """Stamp a line, or a block."""
-        cells = self.cells[place]
-        self.number += bool(cells.max() == self.number)
-        cells[...] = self.number
+Place = tuple[slice | int, slice]
 
 
-def fill(ram: Bytes, cells: Bytes, along: Counter, lines: Counter, stamps: Stamps | None = None) -> tuple[int, int]:
+def fill(ram: Bytes, cells: Bytes, along: Counter, lines: Counter) -> tuple[int, int, list[Place]]:
     """Put cells into the RAM, one line of the window after the other: as many whole lines at once as there are.
 
     Returns
     -------
-    tuple of int
+    int, int
         Where the two pointers stand then.
+    list of tuple
+        Where the cells went, as indices of lines and columns.
     """
+    places: list[Place] = []
     (at, first, last, size), (line, _, bottom, _) = along, lines
     wide = last - first + 1
     while len(cells):
-        place: tuple[slice | int, slice]
+        place: Place
         if at == first and len(cells) > wide > 0 and line <= bottom:
             count = min(len(cells) // wide, bottom - line + 1)
             place, taken = (slice(line, line + count), slice(first, last + 1)), count * wide
@@ -105,10 +96,9 @@ def fill(ram: Bytes, cells: Bytes, along: Counter, lines: Counter, stamps: Stamp
             if at + taken == last + 1:
                 line = lines.moved(line + 1)
             at = along.moved(at + taken)
-        if stamps is not None:
-            stamps.put(place)
+        places.append(place)
         cells = cells[taken:]
-    return at, line
+    return at, line, places
 
 
 # commands of pointers and windows; `chip` is a DisplayChip

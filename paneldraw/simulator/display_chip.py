@@ -8,7 +8,7 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from .addressing import DOWN, PAGE, PAGES, Bytes, Counter, Packing, Stamps, fill, levels
+from .addressing import DOWN, PAGE, PAGES, Bytes, Counter, Packing, fill, levels
 from .chip import Chip
 from .commands import UNKNOWN, Command, Commands
 from .frames import Picture
@@ -271,10 +271,7 @@ class DisplayChip(Chip):
 
     def _place(self, cells: Bytes) -> None:
         """Put cells where the pointer stands, and move it on."""
-        progress, mode = self._progress, self.mode
-        progress.draw()
-        stamps = None if progress.pointed else Stamps(progress.stamps, progress.number)
-        ram = self._ram
+        ram, mode = self._ram, self.mode
         if self.remaps_ram and self.segment_remap:
             ram = ram[:, ::-1, ::-1]
         if not self.high_first:
@@ -287,12 +284,10 @@ class DisplayChip(Chip):
             if len(cells) >= room:  # the pointer stays behind the last column
                 cells, column = cells[:room], column._replace(last=self.columns, size=self.columns + 1)
         if mode == DOWN:
-            stamps = stamps and Stamps(stamps.cells.T, stamps.number)
-            row, at = fill(ram.swapaxes(0, 1), cells, line, column, stamps)
+            row, at, places = fill(ram.swapaxes(0, 1), cells, line, column)
         else:
-            at, row = fill(ram, cells, column, line, stamps)
-        if stamps is not None:
-            progress.number = stamps.number
+            at, row, places = fill(ram, cells, column, line)
+        self._progress.draw(places, down=mode == DOWN)
         self.registers.column = at
         setattr(self.registers, self.line_name, row)
 

@@ -37,10 +37,10 @@ class Progress:
     """Tells where one picture ends and the next begins, from the calls on the bus alone.
 
     A call that sets the pointer and writes data is a picture of its own. Of drivers that do so in calls of their own,
-    a call that sets the pointer opens a picture, and calls with data add to it until a place is written a second time,
-    or the pointer is set after a rest of more than `REST` seconds. A call with data while no picture is open is one by
-    itself, and opens one where it leaves its window unfilled. Chips without a pointer, whose data carries its address,
-    add to a picture until a place is written a second time or after a rest.
+    a call that sets the pointer opens a picture, and calls with data add to it until one writes again more than it
+    writes anew, or the pointer is set after a rest of more than `REST` seconds. A call with data while no picture is
+    open is one by itself, and opens one where it leaves its window unfilled. Data that carries its own address, of
+    chips without a pointer, adds to a picture until places repeat or after a rest.
 
     Parameters
     ----------
@@ -67,11 +67,20 @@ class Progress:
         self._addressed: list[Any] = []
         self._ended = 0.0
 
-    def draw(self) -> None:
-        """Note that this call writes data where the pointer stands, and begin a picture where none is open."""
+    def draw(self, places: list[Any], down: bool = False) -> None:
+        """Note a run of data where the pointer stands, as indices into `stamps`, of columns and lines if `down`."""
         if not self._drew and (self.pointed or not self._open):
             self.number += 1
         self._drew = True
+        if not self.pointed:  # or else the call is a picture of its own
+            self._stamp(self.stamps.T if down else self.stamps, places)
+
+    def _stamp(self, stamps: NDArray[np.uint32], places: list[Any], rested: bool = False) -> None:
+        """Stamp cells with the number of the picture: the next one if they are more again than anew."""
+        found = np.concatenate([np.ravel(stamps[place] == self.number) for place in places])
+        self.number += rested or 2 * int(found.sum()) > found.size
+        for place in places:
+            stamps[place] = self.number
 
     def draw_at(self, cells: Any) -> None:
         """Note data that carries its own address: an index into `stamps`."""
@@ -83,11 +92,8 @@ class Progress:
         pointed, drew = self.pointed, self._drew
         self.pointed = self._drew = False
         if self._addressed:
-            again = any(np.any(self.stamps[cells] == self.number) for cells in self._addressed)
-            self.number += again or rested
-            for cells in self._addressed:
-                self.stamps[cells] = self.number
-            self._addressed.clear()
+            self._stamp(self.stamps, self._addressed, rested)
+            self._addressed = []
             return self.number
         if pointed and drew:
             self._open = False
