@@ -386,6 +386,7 @@ class I2CBus(Wire):
 
     def _transfer(self, parts: list[_Message]) -> None:
         with self._lock:
+            self._pass_time()
             self.transactions += 1
             bytes_before, started, stops = self.bytes, 0, 1
             touched: dict[int, tuple[Device, int]] = {}
@@ -411,6 +412,13 @@ class I2CBus(Wire):
                 now = self._elapse((9 * (self.bytes - bytes_before) + started + stops) / self.clock)
                 for device, wire_bytes in touched.values():
                     device.settle(now, wire_bytes)
+
+    def _chips(self) -> Iterable[object]:
+        for device in self.devices.values():
+            yield device
+            if isinstance(device, Multiplexer):
+                for behind in device.channels.values():
+                    yield from behind.values()
 
     def _at(self, address: int) -> Device | None:
         """Who answers at an address, behind multiplexers too."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import random
 from abc import ABC, abstractmethod
 from collections import deque
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from copy import copy
 from types import SimpleNamespace
 from typing import Any, ClassVar
@@ -15,6 +15,7 @@ import numpy as np
 from .frames import Frame, Picture, Progress
 
 _STATUS_OFF = 0x40
+_MOST_STEPS = 1000
 
 
 def written(sent: Iterable[int]) -> str:
@@ -42,6 +43,8 @@ class Chip(ABC):
         What is merely not in the sheet, or a relative's command that the chip lets pass, in the same way.
     registers : Registers
         All other state, by name.
+    tick : callable or None
+        Makes the bus tell the chip what time it is; set by the bus.
     """
 
     buses: ClassVar[tuple[str, ...]] = ("i2c", "spi")
@@ -57,7 +60,8 @@ class Chip(ABC):
         self, width: int, height: int, *, history: int | None, seed: int | None, cells: tuple[int, ...] = (0,)
     ) -> None:
         self.width, self.height = width, height
-        self.frames: deque[Frame] = deque(maxlen=history)
+        self.tick: Callable[[], None] | None = None
+        self._frames: deque[Frame] = deque(maxlen=history)
         self.violations: list[str] = []
         self.remarks: list[str] = []
         self._random = random.Random(seed)
@@ -78,6 +82,7 @@ class Chip(ABC):
         """Pull the reset pin: registers at reset, a half-sent command forgotten, RAM as it was."""
         self.registers = Registers(**{name: copy(value) for name, value in self.reset_values.items()})
         self._picture: Picture | None = None
+        self._next_step: float | None = None
 
     # the wire
 
@@ -112,31 +117,62 @@ class Chip(ABC):
             Bytes that this call put on the wire for this chip.
         """
         self._unframed_bytes += wire_bytes
-        picture = self._progress.end_call(seconds, self._unfilled)
-        pixels = self.pixels
+        self._see(seconds, self._progress.end_call(seconds, self._unfilled))
+        if not (period := self._step_seconds):
+            self._next_step = None
+        elif self._next_step is None:
+            self._next_step = seconds + period
+
+    def wait(self, seconds: float) -> None:
+        """Let time pass up to `seconds`: what the chip moves by itself moves on, a frame a step. Buses call this."""
+        period = self._step_seconds
+        if self._next_step is None or not period or seconds < self._next_step:
+            return
+        steps = int((seconds - self._next_step) / period) + 1
+        unseen = max(steps - (self._frames.maxlen or _MOST_STEPS), 0)
+        if unseen:
+            self._step(unseen)
+        for number in range(unseen, steps):
+            self._step(1)
+            self._picture = None
+            self._see(self._next_step + number * period, 0)
+        self._next_step += steps * period
+
+    def _see(self, seconds: float, number: int) -> None:
+        """Record a frame if the eye sees another picture: in place of the last, if that was its beginning."""
+        pixels = self._present()
         if pixels is not self._seen and not np.array_equal(pixels, self._seen):
-            self._show(pixels, seconds, picture)
+            frame, last_number = self._last
+            if frame and number and number == last_number and self._frames and self._frames[-1] is frame:
+                self._unframed_bytes += frame.wire_bytes
+                self._frames.pop()
+            frame = Frame(pixels, seconds, self._unframed_bytes, self.max_level)
+            self._frames.append(frame)
+            self._last = frame, number
+            self._unframed_bytes = 0
         self._seen = pixels
 
-    def _show(self, pixels: Picture, seconds: float, picture: int) -> None:
-        """Record a frame, in place of the last one if that is the same picture, not yet whole."""
-        frame, number = self._last
-        if picture and picture == number and self.frames and self.frames[-1] is frame:
-            self._unframed_bytes += frame.wire_bytes
-            self.frames.pop()
-        self.frames.append(Frame(pixels, seconds, self._unframed_bytes, self.max_level))
-        self._last = self.frames[-1] if self.frames else None, picture
-        self._unframed_bytes = 0
+    def _present(self) -> Picture:
+        if self._picture is None:
+            self._picture = self._look()
+            self._picture.flags.writeable = False
+        return self._picture
 
     # what can be seen
 
     @property
     def pixels(self) -> Picture:
         """What an eye sees: levels from 0 to `max_level`, uint8, shape (height, width), read-only."""
-        if self._picture is None:
-            self._picture = self._look()
-            self._picture.flags.writeable = False
-        return self._picture
+        if self._next_step is not None and self.tick:
+            self.tick()
+        return self._present()
+
+    @property
+    def frames(self) -> deque[Frame]:
+        """The whole pictures that were shown."""
+        if self._next_step is not None and self.tick:
+            self.tick()
+        return self._frames
 
     @property
     def status(self) -> int:
@@ -150,7 +186,7 @@ class Chip(ABC):
 
     def __repr__(self) -> str:
         power = "on" if self.registers.on else "off"
-        return f"<{type(self).__name__} {self.width}x{self.height}, {power}, {len(self.frames)} frames>"
+        return f"<{type(self).__name__} {self.width}x{self.height}, {power}, {len(self._frames)} frames>"
 
     # what is to be said of the driver
 
@@ -168,6 +204,14 @@ class Chip(ABC):
     def _unfilled(self) -> bool:
         """Whether the pointer stands within a window that it has not filled to the end."""
         return False
+
+    @property
+    def _step_seconds(self) -> float:
+        """Seconds from step to step of what moves by itself; 0 while nothing does."""
+        return 0
+
+    def _step(self, count: int) -> None:  # noqa: B027 - most chips do not move
+        """Move on by some steps."""
 
     @abstractmethod
     def _lose_ram(self) -> None:

@@ -1,18 +1,27 @@
-"""The hardware scroll of the SSD130x: its commands and their rules."""
+"""The hardware scroll of the SSD130x: its commands, their rules, and how the picture moves."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from .commands import Command, Commands
+
+FRAMES = (5, 64, 128, 256, 3, 4, 25, 2)
+"""Frames from step to step, by the code that sets them."""
+_LEFT = (0x27, 0x2A, 0x2D)
 
 
 @dataclass
 class Scroll:
-    """The hardware scroll as set up by 26, 27, 29, 2A and A3; the simulator keeps it and does not move the picture.
+    """The hardware scroll as set up by 26, 27, 29, 2A and A3.
 
-    ``opcode`` is 0 until a scroll is set up; ``interval`` is the datasheet's code 0 ... 7, not a number of frames.
+    ``opcode`` is 0 until a scroll is set up; ``interval`` is the datasheet's code 0 ... 7, not a number of frames. It
+    moves the RAM itself, as after it the sheet wants the picture sent anew; left and right are those of the columns'
+    addresses, and rows move up.
     """
 
     opcode: int = 0
@@ -20,29 +29,55 @@ class Scroll:
     page_end: int = 0
     interval: int = 0
     rows_per_step: int = 0
+    column_start: int = 0
+    column_end: int = 127
+    across: bool = True
     top_rows: int = 0
     scroll_rows: int = 64
 
+    def move(self, ram: NDArray[np.uint8], steps: int = 1) -> None:
+        """Move pages of bytes, whose column 0 is the first, on by some steps."""
+        if self.across:
+            window = ram[self.page_start : self.page_end + 1, self.column_start : self.column_end + 1]
+            window[...] = np.roll(window, -steps if self.opcode in _LEFT else steps, axis=1)
+        if self.rows_per_step:
+            rows = np.unpackbits(ram, axis=0, bitorder="little")
+            area = rows[self.top_rows : self.top_rows + self.scroll_rows]
+            area[...] = np.roll(area, -steps * self.rows_per_step, axis=0)
+            ram[...] = np.packbits(rows, axis=0, bitorder="little")
 
-def _set_up(chip: Any, sent: bytes) -> None:
-    scroll = chip.registers.scroll
+
+def _set_up(chip: Any, sent: bytes, layout: str) -> Scroll:
+    """A scroll after the arguments of a command, whose places `layout` names; its rules are spoken."""
+    given = dict(zip(layout.split(), sent[1:], strict=True))
+    old = chip.registers.scroll
+    scroll = Scroll(
+        sent[0],
+        given["p"] & 7,
+        given["P"] & 7,
+        given.get("i", 0) & 7,
+        given.get("v", 0) & 0x3F,
+        given.get("c", 0) & 0x7F,
+        given.get("C", 0x7F) & 0x7F,
+        bool(given.get("h", 1)),
+        old.top_rows,
+        old.scroll_rows,
+    )
     if chip.registers.scrolling:
         chip.complain("a scroll is set up only while none is running; send 2E first", sent)
-    if sent[1]:
+    if given.get("0"):
         chip.complain("the first argument of a scroll is 00", sent)
-    if max(sent[2], sent[4]) >= chip.lines or sent[3] > 7:
+    if max(given["p"], given["P"]) >= chip.lines or given.get("i", 0) > 7:
         chip.complain("pages and interval of a scroll are 00 to 07", sent)
-    elif sent[4] < sent[2]:
+    elif given["P"] < given["p"]:
         chip.complain("the scroll's end page is before its start page", sent)
-    scroll.opcode, scroll.page_start, scroll.interval, scroll.page_end = sent[0], sent[2] & 7, sent[3] & 7, sent[4] & 7
-    if sent[0] in (0x26, 0x27):
-        scroll.rows_per_step = 0
-        if (sent[5], sent[6]) != (0x00, 0xFF):
-            chip.complain("the last arguments of a horizontal scroll are 00 FF", sent)
-    else:
-        scroll.rows_per_step = sent[5] & 0x3F
-        if not 1 <= sent[5] < min(scroll.scroll_rows, 64):
-            chip.complain("the vertical scroll offset is 01 to 3F and below the scrolling rows", sent)
+    if scroll.column_end < scroll.column_start:
+        chip.complain("the scroll's end column is before its start column", sent)
+    if (given.get("00", 0x00), given.get("FF", 0xFF)) != (0x00, 0xFF):
+        chip.remark("the last arguments of a horizontal scroll are 00 FF", sent)
+    if "v" in given and not 1 <= given["v"] < min(scroll.scroll_rows, 64):
+        chip.complain("the vertical scroll offset is 01 to 3F and below the scrolling rows", sent)
+    return scroll
 
 
 def _area(chip: Any, sent: bytes) -> None:
@@ -63,12 +98,31 @@ def _stop(chip: Any, sent: bytes) -> None:
     chip.registers.scrolling = False
 
 
-_STATE = {"scroll": Scroll(), "scrolling": False}
+def scroll(across: str, diagonal: str, once: str = "") -> Commands:
+    """The commands of a scroll: 26 and 27, 29 and 2A, 2C and 2D where there is one column at a time; A3, 2E, 2F.
 
-SCROLL: Commands = {
-    **dict.fromkeys((0x26, 0x27), Command(6, _set_up, _STATE)),
-    **dict.fromkeys((0x29, 0x2A), Command(5, _set_up, _STATE)),
-    0x2E: Command(0, _stop, _STATE),
-    0x2F: Command(0, _start, _STATE),
-    0xA3: Command(2, _area, _STATE),
-}
+    Parameters
+    ----------
+    across, diagonal, once : str
+        What each argument is, in order: p and P the first and last page, c and C the first and last column, i the
+        interval, v the rows a step, h whether columns move too; 0, 00 and FF are that; - is any.
+    """
+    state = {"scroll": Scroll(), "scrolling": False}
+
+    def command(layout: str) -> Command:
+        def act(chip: Any, sent: bytes) -> None:
+            chip.registers.scroll = _set_up(chip, sent, layout)
+
+        return Command(len(layout.split()), act, state)
+
+    def one(chip: Any, sent: bytes) -> None:
+        _set_up(chip, sent, once).move(chip.pages)
+
+    return {
+        **dict.fromkeys((0x26, 0x27), command(across)),
+        **dict.fromkeys((0x29, 0x2A), command(diagonal)),
+        **(dict.fromkeys((0x2C, 0x2D), Command(len(once.split()), one)) if once else {}),
+        0x2E: Command(0, _stop, state),
+        0x2F: Command(0, _start, state),
+        0xA3: Command(2, _area, state),
+    }

@@ -175,6 +175,7 @@ class SPIBus(Wire):
     def _carry(self, payload: bytes, seconds: float) -> None:
         """Put the bytes of one chip select on the wire, as far as faults let them."""
         with self._lock:
+            self._pass_time()
             self.messages += 1
             fault = self._due()
             got = len(payload) if fault is None else fault.reach(len(payload))
@@ -198,6 +199,9 @@ class SPIBus(Wire):
             if run is None:
                 raise TypeError("chips: in a row of them each but the last must have a data output")
             run = chip.transfer(run, data)
+
+    def _chips(self) -> Iterable[object]:
+        return self.chips
 
     def _deselect(self) -> None:
         for chip in self.chips:

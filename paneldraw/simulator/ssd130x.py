@@ -8,7 +8,7 @@ from .addressing import ADDRESSING_MODE, page_pointer, windows
 from .commands import DISPLAY, LOCK, Command, Commands, choice, nothing, numbered, relative, setting, switch
 from .display_chip import DisplayChip
 from .glass import Module
-from .scroll import SCROLL
+from .scroll import scroll
 
 COM_PINS = (0x02, 0x12, 0x22, 0x32)
 
@@ -35,7 +35,7 @@ ONE_BIT: Commands = {
 #: The commands of all relatives of this family, let pass by those that do not have them.
 RELATIVES: Commands = {
     0x23: relative("fade and blink of the SSD1306B, the SSD1309 and the SSD1315", 1),
-    **dict.fromkeys((0x2C, 0x2D), relative("one-column scroll of the SSD1309 and the SSD1315", 7)),
+    **dict.fromkeys((0x2C, 0x2D), relative("one-column scroll of the SSD1306B and the SSD1315", 6)),
     **dict.fromkeys(range(0x30, 0x34), relative("pump voltage of the SH1106")),
     0x82: relative("area brightness of the SSD1305", 1),
     0x8D: relative("charge pump of the SSD1306", 1),
@@ -99,8 +99,8 @@ class SSD1306(DisplayChip):
     Notes
     -----
     A command that the datasheet forbids is recorded and then acts as far as its bits reach; an unknown one is ignored,
-    a relative's with its arguments. Hardware scrolling is state only: its commands are checked and kept, the picture
-    stands still. Where the datasheet is silent: page mode runs through all 128 columns, whatever window was set; a
+    a relative's with its arguments. Hardware scrolling moves the RAM, in the time of the bus. Where the datasheet is
+    silent: page mode runs through all 128 columns, whatever window was set; a
     pointer past the end of its window counts on to the end of the RAM; data in the middle of a command reaches the RAM
     and the command waits on; A5 lights an inverted display too. The status byte's lower bits are 3, as seen of modules.
 
@@ -130,7 +130,7 @@ class SSD1306(DisplayChip):
     commands: ClassVar = {
         **RELATIVES,
         **ONE_BIT,
-        **SCROLL,
+        **scroll("0 p i P 00 FF", "- p i P v"),
         **page_pointer(only_in_page_mode=True),
         **windows(128, 8, 0x21, 0x22, "page", not_in_page_mode=True),
         **numbered("start_line", 0x40, 64),
@@ -157,6 +157,7 @@ class SSD1309(SSD1306):
     supply, identity = ("on", 1), 0x00
     commands: ClassVar = {
         **SSD1306.commands,
+        **scroll("0 p i P - c C", "h p i P v c C", once="0 p - P - c C"),
         0x8D: RELATIVES[0x8D],
         0xDB: setting("vcomh", 0x34, (0x00, 0x34, 0x3C), "the VCOMH level is 00, 34 or 3C", harmless=True),
         0xDC: setting("gpio", 0x02, range(4), "the GPIO takes 00 to 03", harmless=True),

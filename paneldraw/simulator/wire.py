@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Final
 
@@ -53,6 +53,7 @@ class Wire:
             raise ValueError(f"seconds: {seconds!r} is not 0 or more")
         with self._lock:
             self._now += seconds
+            self._pass_time()
 
     def clear_faults(self) -> None:
         """Forget all faults that wait."""
@@ -65,6 +66,19 @@ class Wire:
         if self._timer:
             self._now = max(self._now, self._timer() - self._started)
         return self._now
+
+    def _pass_time(self) -> None:
+        """Tell the chips what time it is, before a call and when somebody looks at one that moves by itself."""
+        with self._lock:
+            now = max(self._now, self._timer() - self._started) if self._timer else self._now
+            for chip in self._chips():
+                if isinstance(chip, Chip):
+                    chip.tick = self._pass_time
+                    chip.wait(now)
+
+    def _chips(self) -> Iterable[object]:
+        """What sits on the bus."""
+        return ()
 
     def _await(self, fault: Fault) -> Fault:
         self._faults.append(fault)
