@@ -9,7 +9,7 @@ from .frames import Frame
 from .recorder import Look, contact_sheet, image, save
 from .sh110x import SH1106, SH1107
 from .spi import SPIBus
-from .ssd130x import SSD1306, SSD1309
+from .ssd130x import SSD1306, SSD1309, SSD1315, SSD1316
 from .ssd132x import SSD1322, SSD1327
 from .terminal import TerminalView, text
 
@@ -21,6 +21,8 @@ __all__ = [
     "SH1107",
     "SSD1306",
     "SSD1309",
+    "SSD1315",
+    "SSD1316",
     "SSD1322",
     "SSD1327",
     "Frame",

@@ -162,6 +162,7 @@ def windows(
 
     def command(axis: str, size: int) -> Command:
         def act(chip: Any, sent: bytes) -> None:
+            size = chip.columns if axis == "column" else chip.lines
             if not_in_page_mode and chip.mode == PAGE:
                 chip.complain("windows are for horizontal and vertical addressing mode only", sent)
             if max(sent[1:]) >= size:

@@ -5,9 +5,9 @@ from __future__ import annotations
 import random
 from abc import ABC, abstractmethod
 from collections import deque
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from copy import copy
-from types import SimpleNamespace
+from types import MappingProxyType, SimpleNamespace
 from typing import Any, ClassVar
 
 import numpy as np
@@ -51,7 +51,7 @@ class Chip(ABC):
     """The buses that the chip can sit on."""
     max_level: int = 1
     """The level of a fully lit pixel."""
-    reset_values: ClassVar[dict[str, Any]] = {}
+    reset_values: Mapping[str, Any] = MappingProxyType({})
     """The registers and what reset gives them."""
 
     registers: Registers

@@ -110,7 +110,7 @@ UNKNOWN = Command(0, _unknown)
 
 def _display_on(chip: Any, sent: bytes) -> None:
     chip.registers.on = True
-    if not chip.lit:
+    if not chip.fed:
         chip.remark(f"display on before the panel has a supply ({chip.supply_command})", sent)
 
 

@@ -47,10 +47,14 @@ class DisplayChip(Chip):
         For a size, offset or COM setting that the chip cannot have.
     """
 
-    columns: ClassVar[int]
+    columns: int
     """Column addresses."""
+    wide_columns: ClassVar[int] = 0
+    """Those of look-alikes, where a column offset shows that it is one: the glass would not end within `columns`."""
     lines: ClassVar[int]
     """Line addresses: pages or rows."""
+    last_rows: ClassVar[int] = 8
+    """Rows of the last page."""
     line_name: ClassVar[str] = "page"
     """The register that points at one."""
     packing: ClassVar[Packing] = PAGES
@@ -64,7 +68,7 @@ class DisplayChip(Chip):
     """The settings of the COM pins, if the chip has any, and which bits of them alternate pads and swap halves."""
     alternate_bit: ClassVar[int] = 0x10
     swap_bit: ClassVar[int] = 0x20
-    upright: ClassVar[tuple[bool, bool]] = (True, True)
+    upright: tuple[bool, bool] = (True, True)
     """The segment remap and the direction of the COM lines under which modules stand upright."""
     remaps_ram: ClassVar[bool] = True
     """Whether the segment remap mirrors what comes into the RAM, or else what comes out of it."""
@@ -106,8 +110,11 @@ class DisplayChip(Chip):
     ) -> None:
         usual = next(iter(self.modules))
         width, height = usual[0] if width is None else width, usual[1] if height is None else height
+        if column_offset is not None and self.columns < column_offset + width <= self.wide_columns:
+            self.columns = self.wide_columns
+            self.reset_values = {**self.reset_values, "column_end": self.columns - 1}
         self._ram: Bytes = np.zeros((self.lines, self.columns, self.packing.elements * self.column_bytes), np.uint8)
-        self.commons, self.segments = levels(self._ram, self.packing).shape[:: -1 if self.transposed else 1]
+        self.commons, self.segments = self._levels().shape
         self._glass = self._wired(width, height, self._module(width, height, column_offset, com_pins, first_com))
         self.external_vcc = external_vcc
         super().__init__(width, height, history=history, seed=seed, cells=self._ram.shape[:2])
@@ -159,10 +166,15 @@ class DisplayChip(Chip):
         return super().status | self.identity
 
     @property
+    def fed(self) -> bool:
+        """Whether the panel has its supply."""
+        register, bit = self.supply
+        return bool(self.external_vcc or getattr(self.registers, register) & bit)
+
+    @property
     def lit(self) -> bool:
         """Whether the panel is on and fed."""
-        register, bit = self.supply
-        return bool(self.registers.on and (self.external_vcc or getattr(self.registers, register) & bit))
+        return bool(self.registers.on and self.fed)
 
     @property
     def mode(self) -> int:
@@ -289,7 +301,7 @@ class DisplayChip(Chip):
 
     def _store(self, data: Bytes) -> None:
         """Take data into the RAM."""
-        if self.supply_command and self.registers.on and not self.lit:
+        if self.supply_command and self.registers.on and not self.fed:
             self.complain(f"a picture for a panel that is on without a supply ({self.supply_command}) stays dark")
         if "scrolling" in self._has and self.registers.scrolling:
             self.complain("data while a scroll is running; send 2E first")
@@ -341,9 +353,7 @@ class DisplayChip(Chip):
     def _look(self) -> Picture:
         if not self.lit:
             return np.zeros((self.height, self.width), np.uint8)
-        seen = levels(self._ram, self.packing)
-        if self.transposed:
-            seen = seen.T
+        seen = self._levels()
         if not self.remaps_ram and self.segment_remap != self.upright[0]:
             seen = seen[:, ::-1]
         seen, dark = self._glass.pixels(seen, self)
@@ -354,6 +364,13 @@ class DisplayChip(Chip):
         if dark is not None:
             seen[dark] = 0
         return np.ascontiguousarray(seen.T) if self.transposed else seen
+
+    def _levels(self) -> Picture:
+        """The RAM as levels: COM lines and segments."""
+        seen = levels(self._ram, self.packing)
+        if self.last_rows < self.packing.rows:
+            seen = seen[: self.last_rows - self.packing.rows]
+        return seen.T if self.transposed else seen
 
     # the module
 

@@ -45,11 +45,12 @@ SINO_WEALTH: Commands = {
 
 
 class SH1106(DisplayChip):
-    """An SH1106 with its glass: 132 x 64 bits of RAM behind a window of 128 x 64 pixels.
+    """An SH1106 with its glass: 132 x 64 bits of RAM behind a window of 128 x 64, 128 x 32, 72 x 40 or 64 x 32 pixels.
 
-    Parameters, attributes and errors are those of `simulator.SSD1306`; `column_offset` is 2, of some modules 0 or 4,
-    and `external_vcc` is a supply beside the DC-DC converter. Data past column 131 is lost, as no datasheet says where
-    it goes. The status byte's lower bits are 8, as seen of modules.
+    Parameters, attributes and errors are those of `simulator.SSD1306`; `column_offset` is 2 of 128 columns, of some
+    modules 0 or 4, and `external_vcc` is a supply beside the DC-DC converter. The glass of 128x32 begins at COM 16,
+    that of 72x40 at 12. Data past column 131 is lost, as no datasheet says where it goes. The status byte's lower bits
+    are 8, as seen of modules.
 
     Examples
     --------
@@ -60,7 +61,13 @@ class SH1106(DisplayChip):
     """
 
     columns, lines = 132, 8
-    modules: ClassVar = {(128, 64): Module(2, 0x12)}
+    # The small ones as luma.oled (128x32) and U8g2 (u8x8_d_sh1106_72x40.c, u8x8_d_sh1106_64x32.c) drive them.
+    modules: ClassVar = {
+        (128, 64): Module(2, 0x12),
+        (128, 32): Module(2, 0x12, 16),
+        (72, 40): Module(30, 0x12, 12),
+        (64, 32): Module(32, 0x12),
+    }
     com_pin_settings = (0x02, 0x12)
     last_column_wraps = False
     supply, supply_command = ("converter", 0x01), "AD 8B"

@@ -34,13 +34,18 @@ ONE_BIT: Commands = {
 
 #: The commands of all relatives of this family, let pass by those that do not have them.
 RELATIVES: Commands = {
-    0x23: relative("fade and blink of the SSD1306B, the SSD1309 and the SSD1315", 1),
+    0x23: relative("fade and blink of the SSD1306B and the SSD1315", 1),
+    **dict.fromkeys((0x26, 0x27), relative("scroll of the SSD1306", 6)),
+    **dict.fromkeys((0x29, 0x2A), relative("scroll of the SSD1306", 5)),
     **dict.fromkeys((0x2C, 0x2D), relative("one-column scroll of the SSD1306B and the SSD1315", 6)),
+    0x2E: relative("scroll of the SSD1306"),
+    0x2F: relative("scroll of the SSD1306", misleads=True),
     **dict.fromkeys(range(0x30, 0x34), relative("pump voltage of the SH1106")),
     0x82: relative("area brightness of the SSD1305", 1),
     0x8D: relative("charge pump of the SSD1306", 1),
     0x91: relative("look-up table of the SSD1305", 4),
     **dict.fromkeys((0x92, 0x93), relative("bank colors of the SSD1305", 4)),
+    0xA3: relative("scroll of the SSD1306", 2),
     0xAB: relative("dim mode of the SSD1305", 3),
     0xAC: relative("dim mode of the SSD1305"),
     0xAD: relative("supply of the SH1106 and the SSD1305, reference current of the SSD1315", 1),
@@ -69,16 +74,17 @@ class SSD1306(DisplayChip):
     Parameters
     ----------
     width, height : int
-        Visible size in pixels: 128x64 (default), 128x32, 96x16, 72x40, 64x48, 64x32 or 48x64; any other size that the
-        RAM holds needs `column_offset` and `com_pins`.
+        Visible size in pixels: 128x64 (default), 128x32, 96x16, 96x39, 96x40, 72x40, 64x48, 64x32 or 48x64; any other
+        size that the RAM holds needs `column_offset` and `com_pins`.
     column_offset : int, optional
-        First visible RAM column under A1. Default: as modules of that size are wired (72x40: 28, 64x48 and 64x32: 32,
-        48x64: 40, others 0).
+        First visible RAM column under A1. Default: as modules of that size are wired (72x40: 28, 96x39, 64x48 and
+        64x32: 32, 48x64: 40, others 0).
     com_pins : int, optional
-        The DA value that the glass is wired for: 0x02, 0x12, 0x22 or 0x32. Default: 0x02 (sequential) for 128x32 and
-        96x16, 0x12 (alternative) for the others. Under another DA value the lines appear where the pads take them.
+        The DA value that the glass is wired for: 0x02, 0x12, 0x22 or 0x32. Default: 0x02 (sequential) for 128x32,
+        96x16 and 96x40, 0x12 (alternative) for the others. Under another DA value the lines appear where the pads
+        take them.
     first_com : int, optional
-        First COM signal that the glass uses. Default: 0.
+        First COM signal that the glass uses. Default: 0; 16 of some modules of 64x32, 32 of 128x32 at the far end.
     external_vcc : bool
         The module has its own panel supply and lights up without the charge pump. Default: False.
     history : int or None
@@ -119,6 +125,8 @@ class SSD1306(DisplayChip):
         (128, 64): Module(0, 0x12),
         (128, 32): Module(0, 0x02),
         (96, 16): Module(0, 0x02),
+        (96, 39): Module(32, 0x12),
+        (96, 40): Module(0, 0x02),
         (72, 40): Module(28, 0x12),
         (64, 48): Module(32, 0x12),
         (64, 32): Module(32, 0x12),
@@ -137,13 +145,15 @@ class SSD1306(DisplayChip):
         0x20: ADDRESSING_MODE,
         0x8D: Command(1, _charge_pump, {"charge_pump": 0x10}),
         0xA8: setting("multiplex", 63, range(15, 64), "the multiplex ratio is 0F to 3F (16 to 64 lines)", mask=0x3F),
-        0xDA: setting("com_pins", 0x12, COM_PINS, "the COM pins are 02, 12, 22 or 32", mask=0x3F),
+        0xDA: setting("com_pins", 0x12, COM_PINS, "the COM pins are 02, 12, 22 or 32", harmless=True),
         0xDB: setting("vcomh", 0x20, (0x00, 0x20, 0x30), "the VCOMH level is 00, 20 or 30", harmless=True),
     }
 
 
 class SSD1309(SSD1306):
     """An SSD1309: what the SSD1306 is without its charge pump, on glass of 128 x 64 pixels.
+
+    Some that are sold as one have 132 columns of RAM; their modules begin at column 2 (`column_offset`).
 
     Examples
     --------
@@ -154,6 +164,7 @@ class SSD1309(SSD1306):
     """
 
     modules: ClassVar = {(128, 64): Module(0, 0x12)}
+    wide_columns = 132
     supply, identity = ("on", 1), 0x00
     commands: ClassVar = {
         **SSD1306.commands,
@@ -162,4 +173,51 @@ class SSD1309(SSD1306):
         0xDB: setting("vcomh", 0x34, (0x00, 0x34, 0x3C), "the VCOMH level is 00, 34 or 3C", harmless=True),
         0xDC: setting("gpio", 0x02, range(4), "the GPIO takes 00 to 03", harmless=True),
         0xFD: LOCK,
+    }
+
+
+class SSD1315(SSD1306):
+    """An SSD1315: an SSD1306 with a reference current of its own, fading, blinking and zoom, which are state only.
+
+    Its scroll has a window of columns and goes one column at a time, too.
+
+    Examples
+    --------
+    >>> chip = SSD1315(72, 40)
+    >>> chip.write(bytes.fromhex("00 AD 30 8D 14 A5 AF"))
+    >>> chip.registers.reference, chip.remarks
+    (48, [])
+    """
+
+    commands: ClassVar = {
+        **SSD1306.commands,
+        **scroll("0 p i P c C", "h p i P v c C", once="0 p - P c C"),
+        0x23: setting("fade", 0x00, [n for n in range(64) if n >> 4 != 1], "fading takes 00, 20 to 2F or 30 to 3F"),
+        0xAD: setting(
+            "reference", 0x00, (0x00, 0x10, 0x20, 0x30), "the reference takes 00, 10, 20 or 30", harmless=True
+        ),
+        0xD6: setting("zoom", 0x00, (0x00, 0x01), "the zoom takes 00 or 01", harmless=True),
+    }
+
+
+class SSD1316(SSD1315):
+    """An SSD1316: an SSD1315 with 39 rows of RAM, on glass of 128 or 96 columns that stands upright under A1 and C0.
+
+    Examples
+    --------
+    >>> chip = SSD1316(96, 39)
+    >>> chip.write(bytes.fromhex("00 A8 26 8D 15 A5 AF"))
+    >>> int(chip.pixels.sum()) == 96 * 39
+    True
+    """
+
+    lines, last_rows = 5, 7
+    upright = (True, False)
+    modules: ClassVar = {size: Module(0, 0x12) for size in ((128, 32), (96, 32), (128, 39), (96, 39))}
+    commands: ClassVar = {
+        **SSD1315.commands,
+        **page_pointer(5, only_in_page_mode=True),
+        **windows(128, 5, 0x21, 0x22, "page", not_in_page_mode=True),
+        **dict.fromkeys(range(0xB5, 0xB8), relative("pages past 4 of the SSD1306", misleads=True)),
+        0xA8: setting("multiplex", 38, range(15, 39), "the multiplex ratio is 0F to 26 (16 to 39 lines)", mask=0x3F),
     }
