@@ -69,36 +69,43 @@ class Counter(NamedTuple):
 Place = tuple[slice | int, slice]
 
 
-def fill(ram: Bytes, cells: Bytes, along: Counter, lines: Counter) -> tuple[int, int, list[Place]]:
-    """Put cells into the RAM, one line of the window after the other: as many whole lines at once as there are.
+def way(count: int, along: Counter, lines: Counter) -> tuple[list[Place], int, int]:
+    """The way of a pointer through its window: as many whole lines at once as there are.
 
     Returns
     -------
+    list of tuple
+        Where so many cells go, as indices of lines and columns.
     int, int
         Where the two pointers stand then.
-    list of tuple
-        Where the cells went, as indices of lines and columns.
     """
     places: list[Place] = []
     (at, first, last, size), (line, _, bottom, _) = along, lines
     wide = last - first + 1
-    while len(cells):
-        place: Place
-        if at == first and len(cells) > wide > 0 and line <= bottom:
-            count = min(len(cells) // wide, bottom - line + 1)
-            place, taken = (slice(line, line + count), slice(first, last + 1)), count * wide
-            ram[place] = cells[:taken].reshape(count, wide, -1)
-            line = lines.moved(line + count)
+    while count:
+        if at == first and count > wide > 0 and line <= bottom:
+            whole = min(count // wide, bottom - line + 1)
+            places.append((slice(line, line + whole), slice(first, last + 1)))
+            line = lines.moved(line + whole)
+            count -= whole * wide
         else:
-            taken = min(len(cells), (last if at <= last else size - 1) - at + 1)
-            place = line, slice(at, at + taken)
-            ram[place] = cells[:taken]
+            taken = min(count, (last if at <= last else size - 1) - at + 1)
+            places.append((line, slice(at, at + taken)))
             if at + taken == last + 1:
                 line = lines.moved(line + 1)
             at = along.moved(at + taken)
-        places.append(place)
-        cells = cells[taken:]
-    return at, line, places
+            count -= taken
+    return places, at, line
+
+
+def put(ram: Bytes, places: list[Place], cells: Bytes) -> None:
+    """Put cells into the RAM on their way."""
+    start = 0
+    for place in places:
+        room = ram[place]
+        end = start + room.size // room.shape[-1]
+        room[...] = cells[start:end].reshape(room.shape)
+        start = end
 
 
 # commands of pointers and windows; `chip` is a DisplayChip

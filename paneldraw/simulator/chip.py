@@ -69,17 +69,20 @@ class Chip(ABC):
         self._unframed_bytes = 0
         self._progress = Progress(cells)
         self._last: tuple[Frame | None, int] = (None, 0)
+        self._growing: tuple[float, int, int] | None = None
         self.power_cycle()
 
     # power
 
     def power_cycle(self) -> None:
         """Lose power and get it back: registers at reset, RAM undefined (noise from `seed`)."""
+        self._end_picture()
         self._lose_ram()
         self.reset()
 
     def reset(self) -> None:
         """Pull the reset pin: registers at reset, a half-sent command forgotten, RAM as it was."""
+        self._end_picture()
         self.registers = Registers(**{name: copy(value) for name, value in self.reset_values.items()})
         self._picture: Picture | None = None
         self._next_step: float | None = None
@@ -117,7 +120,15 @@ class Chip(ABC):
             Bytes that this call put on the wire for this chip.
         """
         self._unframed_bytes += wire_bytes
-        self._see(seconds, self._progress.end_call(seconds, self._unfilled))
+        progress = self._progress
+        drew = progress.end_call(seconds, self._unfilled)
+        if self._growing and self._growing[1] != progress.number:
+            self._end_picture()
+        if drew and progress.open:
+            self._growing = seconds, drew, self._unframed_bytes + (self._growing[2] if self._growing else 0)
+            self._unframed_bytes = 0
+        elif self._picture is None and not self._growing:
+            self._see(seconds, drew)
         if not (period := self._step_seconds):
             self._next_step = None
         elif self._next_step is None:
@@ -128,6 +139,7 @@ class Chip(ABC):
         period = self._step_seconds
         if self._next_step is None or not period or seconds < self._next_step:
             return
+        self._end_picture()
         steps = int((seconds - self._next_step) / period) + 1
         unseen = max(steps - (self._frames.maxlen or _MOST_STEPS), 0)
         if unseen:
@@ -137,6 +149,15 @@ class Chip(ABC):
             self._picture = None
             self._see(self._next_step + number * period, 0)
         self._next_step += steps * period
+
+    def _end_picture(self) -> None:
+        """Look at a picture that has grown by several calls, before anything else changes it, or when somebody asks."""
+        if self._growing:
+            seconds, number, wire_bytes = self._growing
+            self._growing, later_bytes = None, self._unframed_bytes
+            self._unframed_bytes = wire_bytes
+            self._see(seconds, number)
+            self._unframed_bytes += later_bytes
 
     def _see(self, seconds: float, number: int) -> None:
         """Record a frame if the eye sees another picture: in place of the last, if that was its beginning."""
@@ -172,6 +193,7 @@ class Chip(ABC):
         """The whole pictures that were shown."""
         if self._next_step is not None and self.tick:
             self.tick()
+        self._end_picture()
         return self._frames
 
     @property
@@ -186,7 +208,7 @@ class Chip(ABC):
 
     def __repr__(self) -> str:
         power = "on" if self.registers.on else "off"
-        return f"<{type(self).__name__} {self.width}x{self.height}, {power}, {len(self._frames)} frames>"
+        return f"<{type(self).__name__} {self.width}x{self.height}, {power}, {len(self.frames)} frames>"
 
     # what is to be said of the driver
 

@@ -8,7 +8,7 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from .addressing import DOWN, PAGE, PAGES, Bytes, Counter, Packing, fill, levels
+from .addressing import DOWN, PAGE, PAGES, Bytes, Counter, Packing, levels, put, way
 from .chip import Chip
 from .commands import UNKNOWN, Command, Commands
 from .frames import Picture
@@ -114,7 +114,7 @@ class DisplayChip(Chip):
             self.columns = self.wide_columns
             self.reset_values = {**self.reset_values, "column_end": self.columns - 1}
         self._ram: Bytes = np.zeros((self.lines, self.columns, self.packing.elements * self.column_bytes), np.uint8)
-        self.commons, self.segments = self._levels().shape
+        self.commons, self.segments = self._levels().shape[:: -1 if self.transposed else 1]
         self._glass = self._wired(width, height, self._module(width, height, column_offset, com_pins, first_com))
         self.external_vcc = external_vcc
         super().__init__(width, height, history=history, seed=seed, cells=self._ram.shape[:2])
@@ -141,7 +141,6 @@ class DisplayChip(Chip):
 
     def transfer(self, run: bytes | bytearray | memoryview, data: bool) -> None:
         """Take bytes over SPI, with the D/C line low (`data` False: commands) or high."""
-        self._picture = None
         if not run:
             return
         if self.arguments_are_data:
@@ -296,6 +295,9 @@ class DisplayChip(Chip):
         self._half_cell = b""
         if command.points:
             self._progress.pointed = True
+        else:
+            self._end_picture()
+            self._picture = None
         command.act(self, sent)
         return end
 
@@ -326,10 +328,14 @@ class DisplayChip(Chip):
             if len(cells) >= room:  # the pointer stays behind the last column
                 cells, column = cells[:room], column._replace(last=self.columns, size=self.columns + 1)
         if mode == DOWN:
-            row, at, places = fill(ram.swapaxes(0, 1), cells, line, column)
+            ram = ram.swapaxes(0, 1)
+            places, row, at = way(len(cells), line, column)
         else:
-            at, row, places = fill(ram, cells, column, line)
-        self._progress.draw(places, down=mode == DOWN)
+            places, at, row = way(len(cells), column, line)
+        if self._progress.draw(places, down=mode == DOWN):
+            self._end_picture()
+        put(ram, places, cells)
+        self._picture = None
         self.registers.column = at
         setattr(self.registers, self.line_name, row)
 
@@ -346,31 +352,32 @@ class DisplayChip(Chip):
     @property
     def _unfilled(self) -> bool:
         """Whether the pointer stands within a window that it has not filled to the end."""
-        mode = self.mode
-        column, line = self._counters(mode)
-        return mode != PAGE and (column.at, line.at) != (column.first, line.first)
+        if self.mode == PAGE:
+            return False
+        column, line = self._counters(self.mode)
+        return (column.at, line.at) != (column.first, line.first)
 
     def _look(self) -> Picture:
         if not self.lit:
             return np.zeros((self.height, self.width), np.uint8)
-        seen = self._levels()
+        seen, lines = self._levels(), 1 if self.transposed else 0
         if not self.remaps_ram and self.segment_remap != self.upright[0]:
-            seen = seen[:, ::-1]
+            seen = np.flip(seen, 1 - lines)
         seen, dark = self._glass.pixels(seen, self)
         if self.all_on:
             seen = np.full_like(seen, self.max_level)
         elif self.inverted:
             seen = self.max_level - seen
         if dark is not None:
-            seen[dark] = 0
-        return np.ascontiguousarray(seen.T) if self.transposed else seen
+            np.moveaxis(seen, lines, 0)[dark] = 0
+        return seen
 
     def _levels(self) -> Picture:
-        """The RAM as levels: COM lines and segments."""
+        """The RAM as levels: rows and columns."""
         seen = levels(self._ram, self.packing)
         if self.last_rows < self.packing.rows:
             seen = seen[: self.last_rows - self.packing.rows]
-        return seen.T if self.transposed else seen
+        return seen
 
     # the module
 
@@ -419,4 +426,5 @@ class DisplayChip(Chip):
             pads=pads,
             remapped=self.upright[0],
             com_reversed=self.upright[1],
+            transposed=self.transposed,
         )

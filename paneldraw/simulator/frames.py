@@ -55,6 +55,8 @@ class Progress:
         The picture in progress.
     pointed : bool
         Whether this call set the pointer.
+    open : bool
+        Whether the picture goes on.
     """
 
     REST = 0.02
@@ -63,22 +65,30 @@ class Progress:
         self.stamps = np.zeros(shape, np.uint32)
         self.number = 0
         self.pointed = False
-        self._drew = self._open = False
+        self._drew = self.open = False
         self._addressed: list[Any] = []
         self._ended = 0.0
 
-    def draw(self, places: list[Any], down: bool = False) -> None:
-        """Note a run of data where the pointer stands, as indices into `stamps`, of columns and lines if `down`."""
-        if not self._drew and (self.pointed or not self._open):
+    def draw(self, places: list[Any], down: bool = False) -> bool:
+        """Note a run of data where the pointer stands, and tell whether it begins a picture.
+
+        `places` are indices into `stamps`, of columns and lines if `down`.
+        """
+        before = self.number
+        if not self._drew and (self.pointed or not self.open):
             self.number += 1
         self._drew = True
         if not self.pointed:  # or else the call is a picture of its own
             self._stamp(self.stamps.T if down else self.stamps, places)
+        return self.number != before
 
     def _stamp(self, stamps: NDArray[np.uint32], places: list[Any], rested: bool = False) -> None:
         """Stamp cells with the number of the picture: the next one if they are more again than anew."""
-        found = np.concatenate([np.ravel(stamps[place] == self.number) for place in places])
-        self.number += rested or 2 * int(found.sum()) > found.size
+        again = total = 0
+        for place in places:
+            found = stamps[place] == self.number
+            again, total = again + int(np.count_nonzero(found)), total + np.size(found)
+        self.number += rested or 2 * again > total
         for place in places:
             stamps[place] = self.number
 
@@ -96,10 +106,10 @@ class Progress:
             self._addressed = []
             return self.number
         if pointed and drew:
-            self._open = False
-        elif pointed and (rested or not self._open):
+            self.open = False
+        elif pointed and (rested or not self.open):
             self.number += 1
-            self._open = True
-        elif drew and not self._open:
-            self._open = unfilled
+            self.open = True
+        elif drew and not self.open:
+            self.open = unfilled
         return self.number if drew else 0

@@ -64,6 +64,8 @@ class Glass:
         The COM pads of the lines, in order of their signals under the setting that the glass is wired for.
     remapped, com_reversed : bool
         Under which segment remap and which direction of the COM lines the module stands upright.
+    transposed : bool
+        Whether COM lines are the columns of what is seen. Default: False.
     """
 
     def __init__(
@@ -76,25 +78,30 @@ class Glass:
         pads: NDArray[np.intp],
         remapped: bool,
         com_reversed: bool,
+        transposed: bool = False,
     ) -> None:
+        self._transposed = transposed
         left = segments - 1 - first_segment
         stop = left - dots if left >= dots else None
         self._segments = slice(left, stop, -1) if remapped else slice(first_segment, first_segment + dots)
         self._pads = pads[::-1] if com_reversed else pads
-        self._known: tuple[tuple[int, ...], NDArray[np.intp], NDArray[np.bool_] | None] | None = None
+        self._known: tuple[tuple[int, ...], slice | NDArray[np.intp], NDArray[np.bool_] | None] | None = None
 
     def pixels(self, levels: Picture, chip: Scan) -> tuple[Picture, NDArray[np.bool_] | None]:
-        """Bring levels (rows, segments) onto the glass; return them and which lines are dark, if any, come what may."""
+        """Bring levels onto the glass; return them and which lines are dark, if any, come what may."""
         scan = chip.scan
         if self._known is None or self._known[0] != scan:
-            self._known = (scan, *self._rows(len(levels), chip))
+            self._known = (scan, *self._rows(levels.shape[self._transposed], chip))
         _, rows, dark = self._known
-        return levels[:, self._segments].take(rows, axis=0), dark
+        seen = levels[self._segments, rows] if self._transposed else levels[rows, self._segments]
+        return np.array(seen, order="C"), dark
 
-    def _rows(self, count: int, chip: Scan) -> tuple[NDArray[np.intp], NDArray[np.bool_] | None]:
+    def _rows(self, count: int, chip: Scan) -> tuple[slice | NDArray[np.intp], NDArray[np.bool_] | None]:
         multiplex, offset, start_line, com_reversed, setting = chip.scan
         signals = chip.com_signals(setting)[self._pads]
         lines = multiplex - signals if com_reversed else signals
         rows = (lines + offset) % count
         dark = rows > multiplex
-        return (rows + start_line) % count, dark if dark.any() else None
+        rows = (rows + start_line) % count
+        steady = bool((np.diff(rows) == 1).all())
+        return slice(rows[0], rows[-1] + 1) if steady else rows, dark if dark.any() else None
