@@ -8,7 +8,7 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from .addressing import DOWN, PAGE, PAGES, Bytes, Counter, Packing, levels, put, way
+from .addressing import DOWN, PAGE, PAGES, Bytes, Counter, Packing, Place, levels, put, way
 from .chip import Chip
 from .commands import UNKNOWN, Command, Commands
 from .frames import Picture
@@ -315,46 +315,53 @@ class DisplayChip(Chip):
 
     def _place(self, cells: Bytes) -> None:
         """Put cells where the pointer stands, and move it on."""
-        ram, mode = self._ram, self.mode
+        mode, ram = self.mode, self._ram
+        places, column, line = self._way(len(cells), mode)
+        if self._progress.draw(places, down=mode == DOWN):
+            self._end_picture()
         if self.remaps_ram and self.segment_remap:
             ram = ram[:, ::-1, ::-1]
         if not self.high_first:
             ram = ram[:, :, ::-1]
-        column, line = self._counters(mode)
-        if mode == PAGE and not self.last_column_wraps:
-            room = max(self.columns - column.at, 0)
-            if len(cells) > room:
-                self.complain(f"data past column {self.columns - 1} is lost")
-            if len(cells) >= room:  # the pointer stays behind the last column
-                cells, column = cells[:room], column._replace(last=self.columns, size=self.columns + 1)
-        if mode == DOWN:
-            ram = ram.swapaxes(0, 1)
-            places, row, at = way(len(cells), line, column)
-        else:
-            places, at, row = way(len(cells), column, line)
-        if self._progress.draw(places, down=mode == DOWN):
-            self._end_picture()
-        put(ram, places, cells)
+        put(ram.swapaxes(0, 1) if mode == DOWN else ram, places, cells)
         self._picture = None
-        self.registers.column = at
-        setattr(self.registers, self.line_name, row)
+        self.registers.column = column
+        setattr(self.registers, self.line_name, line)
 
-    def _counters(self, mode: int) -> tuple[Counter, Counter]:
-        """The pointer's two counters: in their windows, or the column in all of one page."""
+    def _way(self, count: int, mode: int) -> tuple[list[Place], int, int]:
+        """Where so many cells go, in the order of the mode, and column and line of the pointer then."""
+        if mode != PAGE:
+            column, line = self._counters()
+            if mode == DOWN:
+                places, down, across = way(count, line, column)
+                return places, across, down
+            return way(count, column, line)
+        at, page = self.registers.column, getattr(self.registers, self.line_name)
+        end = at + count
+        if end < self.columns:
+            return [(page, slice(at, end))], end, page
+        if self.last_column_wraps:
+            last = self.columns - 1
+            return way(count, Counter(at, 0, last, self.columns), Counter(page, page, page, self.lines))
+        if end > self.columns:
+            self.complain(f"data past column {self.columns - 1} is lost")
+        return [(page, slice(at, self.columns))] if at < self.columns else [], self.columns, page
+
+    def _counters(self) -> tuple[Counter, Counter]:
+        """The pointer's two counters, in their windows."""
         registers, line = vars(self.registers), self.line_name
-        column, row = registers["column"], registers[line]
-        if mode == PAGE:
-            return Counter(column, 0, self.columns - 1, self.columns), Counter(row, row, row, self.lines)
         first, last = registers.get("column_start", 0), registers.get("column_end", self.columns - 1)
         top, bottom = registers.get(f"{line}_start", 0), registers.get(f"{line}_end", self.lines - 1)
-        return Counter(column, first, last, self.columns), Counter(row, top, bottom, self.lines)
+        return Counter(registers["column"], first, last, self.columns), Counter(
+            registers[line], top, bottom, self.lines
+        )
 
     @property
     def _unfilled(self) -> bool:
         """Whether the pointer stands within a window that it has not filled to the end."""
         if self.mode == PAGE:
             return False
-        column, line = self._counters(self.mode)
+        column, line = self._counters()
         return (column.at, line.at) != (column.first, line.first)
 
     def _look(self) -> Picture:
