@@ -214,6 +214,9 @@ def _serial(parts: SplitResult) -> SerialURL:
     if not place:
         raise ValueError(f"url must have the form {_FORMS['serial']}, not {parts.geturl()!r}")
     if "://" in place:
+        if place.partition("://")[0] not in _PYSERIAL:
+            kinds = ", ".join(f"{kind}://" for kind in _PYSERIAL)
+            raise ValueError(f"port must be a device or one of {kinds}, not {place!r}")
         pairs = parse_qsl(parts.query, keep_blank_values=True)
         others = urlencode([pair for pair in pairs if pair[0] not in _SERIAL])  # they are pyserial's
         place += f"?{others}" if others else ""

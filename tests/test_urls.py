@@ -6,6 +6,7 @@ from firmware_protocol import HelloReply
 from paneldraw import urls
 from paneldraw.controllers import SH1106, SSD1306, SSD1327
 from paneldraw.errors import ProtocolError
+from paneldraw.transports import SerialTransport
 
 
 @pytest.mark.parametrize(
@@ -144,3 +145,11 @@ def test_a_channel_of_a_multiplexer(bus):
 def test_a_channel_that_is_no_number():
     with pytest.raises(ValueError, match="channel must be a whole number, such as 3, not 'left'"):
         urls.parse("i2c://1/0x70:left/0x3c")
+
+
+@pytest.mark.parametrize("port", ["spy:///dev/ttyS0?file=/tmp/x", "alt://dev", "hwgrep://0x2341"])
+def test_no_other_handler_of_pyserials_is_reached(port, tmp_path):
+    with pytest.raises(ValueError, match="port must be a device or one of rfc2217://, socket://, loop://"):
+        urls.parse(f"serial://{port}")
+    with pytest.raises(ValueError, match="port must be a device or one of rfc2217://, socket://, loop://"):
+        SerialTransport(port)

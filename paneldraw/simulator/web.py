@@ -3,8 +3,12 @@
 from __future__ import annotations
 
 import asyncio
+import hmac
+import ipaddress
 import json
+import secrets
 import threading
+from collections.abc import Awaitable, Callable, Iterable
 from concurrent.futures import Future
 from importlib.util import find_spec
 from typing import TYPE_CHECKING
@@ -17,6 +21,7 @@ if TYPE_CHECKING:
     from aiohttp import web
 
 _POLL = 1 / 30
+_ANY = ("0.0.0.0", "::")
 
 _PAGE = """<!doctype html>
 <html lang="en"><meta charset="utf-8"><title>paneldraw</title>
@@ -41,7 +46,7 @@ function draw(levels) {
   canvas.dataset.shown = ++shown;
 }
 function connect() {
-  const socket = new WebSocket(`ws://${location.host}/frames`);
+  const socket = new WebSocket(`ws://${location.host}/frames${location.search}`);
   socket.binaryType = "arraybuffer";
   socket.onmessage = ({ data }) => {
     if (typeof data !== "string") return draw(new Uint8Array(data));
@@ -69,16 +74,23 @@ class Server:
         Where a browser finds the page.
     """
 
-    def __init__(self, chip: Showing, host: str, port: int, look: Look) -> None:
+    def __init__(
+        self, chip: Showing, host: str, port: int, look: Look, names: Iterable[str], token: str | None
+    ) -> None:
         self._chip = chip
-        self._page = _PAGE.replace("LOOK", json.dumps({"lit": look.lit, "dark": look.dark, "glass": look.glass}))
+        colors = json.dumps({"lit": look.lit, "dark": look.dark, "glass": look.glass})
+        self._page = _PAGE.replace("LOOK", colors.replace("<", "\\u003c"))
+        self._host = host
+        self._names = {"localhost", host.lower(), *map(str.lower, names)}
+        self._token = secrets.token_urlsafe(16) if token is None and not _loopback(host) else token
         started: Future[int] = Future()
         self._thread = threading.Thread(
             target=lambda: asyncio.run(self._main(host, port, started)), name="paneldraw-web", daemon=True
         )
         self._thread.start()
         bound = started.result()
-        self.url = f"http://{f'[{host}]' if ':' in host else host}:{bound}/"
+        query = f"?token={self._token}" if self._token else ""
+        self.url = f"http://{f'[{host}]' if ':' in host else host}:{bound}/{query}"
 
     def __enter__(self) -> Server:
         return self
@@ -96,7 +108,7 @@ class Server:
         from aiohttp import web
 
         self._loop, self._stop = asyncio.get_running_loop(), asyncio.Event()
-        app = web.Application()
+        app = web.Application(middlewares=[web.middleware(self._admit)])
         app.add_routes([web.get("/", self._answer_page), web.get("/frames", self._feed)])
         runner = web.AppRunner(app, access_log=None, shutdown_timeout=1)
         try:
@@ -104,10 +116,23 @@ class Server:
             await web.TCPSite(runner, host, port).start()
             started.set_result(runner.addresses[0][1])
             await self._stop.wait()
-        except OSError as error:
+        except Exception as error:  # whatever it is, `serve` waits for it
             started.set_exception(error)
         finally:
             await runner.cleanup()
+
+    async def _admit(
+        self, request: web.Request, handler: Callable[[web.Request], Awaitable[web.StreamResponse]]
+    ) -> web.StreamResponse:
+        """Turn away who came by a name that is not this server's, or without the token."""
+        from aiohttp import web
+
+        name = (urlsplit(f"//{request.host}").hostname or "").lower()
+        if name not in self._names and not (self._host in _ANY and _is_address(name)):
+            raise web.HTTPForbidden(text="this page is not there under that name")
+        if self._token and not hmac.compare_digest(request.query.get("token", "").encode(), self._token.encode()):
+            raise web.HTTPForbidden(text="the token of this page is missing from its address")
+        return await handler(request)
 
     async def _answer_page(self, request: web.Request) -> web.Response:
         from aiohttp import web
@@ -146,13 +171,33 @@ class Server:
             return self._chip.pixels
 
 
+def _is_address(name: str) -> bool:
+    try:
+        ipaddress.ip_address(name)
+    except ValueError:
+        return False
+    return True
+
+
+def _loopback(host: str) -> bool:
+    return host.lower() == "localhost" or (_is_address(host) and ipaddress.ip_address(host).is_loopback)
+
+
 async def _drain(socket: web.WebSocketResponse) -> None:
     """Read until the browser hangs up; without reading nobody notices."""
     async for _ in socket:
         pass
 
 
-def serve(chip: Showing, host: str = "127.0.0.1", port: int = 8306, *, look: Look | None = None) -> Server:
+def serve(
+    chip: Showing,
+    host: str = "127.0.0.1",
+    port: int = 8306,
+    *,
+    look: Look | None = None,
+    names: Iterable[str] = (),
+    token: str | None = None,
+) -> Server:
     """Show a chip live on a web page, from a thread of its own, until the server is closed.
 
     Parameters
@@ -160,12 +205,17 @@ def serve(chip: Showing, host: str = "127.0.0.1", port: int = 8306, *, look: Loo
     chip : chip
         A simulated chip.
     host : str
-        Address to listen on. Default: this machine only. The page has no password: whoever reaches another address
-        that you give here sees the panel.
+        Address to listen on. Default: this machine only.
     port : int
         TCP port; 0 takes a free one. Default: 8306.
     look : Look, optional
         Colors.
+    names : iterable of str, optional
+        Names under which browsers may ask for the page, beside ``localhost`` and `host`: a page elsewhere cannot reach
+        it by a name of its own. Default: none.
+    token : str, optional
+        What the page's address must end with, as ``?token=``. Default: none on this machine alone; at an address that
+        others can reach a new one each time, which is in the server's ``url``.
 
     Returns
     -------
@@ -178,7 +228,11 @@ def serve(chip: Showing, host: str = "127.0.0.1", port: int = 8306, *, look: Loo
         Without aiohttp.
     OSError
         Where the port is taken or the address is not this machine's.
+    ValueError
+        A port that there is none of.
     """
     if find_spec("aiohttp") is None:
         raise ImportError("the live page needs aiohttp: pip install 'paneldraw[web]'")
-    return Server(chip, host, port, look or Look())
+    if not 0 <= port <= 65535:
+        raise ValueError(f"port must be 0 to 65535, not {port!r}")
+    return Server(chip, host, port, look or Look(), names, token)

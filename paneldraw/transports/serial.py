@@ -25,6 +25,8 @@ if TYPE_CHECKING:
     from firmware_protocol import HelloReply, HostLink, LinkError, PanelFaultError, Status
     from firmware_protocol.runs import Run
 
+PYSERIAL_URLS: Final = ("rfc2217", "socket", "loop")
+"""What a port may be of pyserial's URLs: its other handlers write files, among other things."""
 # A far end that has stopped reading must not hold the script for ever.
 _WRITE_TIMEOUT: Final = 5.0
 _DENIED: Final = (errno.EACCES, errno.EPERM)
@@ -209,6 +211,10 @@ def _open(name: str) -> Any:
     from firmware_protocol.line import PORT_ERRORS
     from firmware_protocol.messages import BASE_BAUDRATE
 
+    scheme, elsewhere, _ = name.partition("://")
+    if elsewhere and scheme.lower() not in PYSERIAL_URLS:
+        kinds = ", ".join(f"{kind}://" for kind in PYSERIAL_URLS)
+        raise ValueError(f"port must be a device or one of {kinds}, not {name!r}: no other handler is reached")
     timeout = None if "://" in name else _WRITE_TIMEOUT  # rfc2217 has none
     try:
         return serial.serial_for_url(name, BASE_BAUDRATE, exclusive=True, write_timeout=timeout)

@@ -55,6 +55,75 @@ def test_only_this_machine_is_served_by_default(server: Any) -> None:
     assert server.url.startswith("http://127.0.0.1:")
 
 
+@pytest.mark.parametrize("name", ["localhost", "127.0.0.1", "panel.home"])
+def test_names_that_are_the_servers(chip: simulator.SSD1306, name: str) -> None:
+    with simulator.serve(chip, port=0, names=["Panel.home"]) as server:
+        assert answer(server.url, name) == 200
+
+
+@pytest.mark.parametrize("name", ["evil.example", "127.0.0.1.evil.example", "", "10.0.0.1"])
+@pytest.mark.parametrize("path", ["", "frames"])
+def test_a_foreign_host_gets_nothing(server: Any, name: str, path: str) -> None:
+    assert answer(server.url + path, name) == 403
+
+
+def answer(url: str, name: str) -> int:
+    """The status with which a server answers somebody who calls it by a name."""
+    status = 0
+
+    async def use(client: aiohttp.ClientSession) -> None:
+        nonlocal status
+        async with client.get(url, headers={"Host": name}) as response:
+            status = response.status
+
+    session(use)
+    return status
+
+
+def test_an_address_that_others_can_reach_needs_the_token(chip: simulator.SSD1306) -> None:
+    with simulator.serve(chip, "0.0.0.0", port=0) as server:
+        page, _, token = server.url.partition("?token=")
+        assert len(token) >= 20
+        assert answer(server.url, "192.168.1.5") == 200
+        assert answer(page, "192.168.1.5") == 403
+        assert answer(page + "?token=wrong", "192.168.1.5") == 403
+        assert answer(server.url, "evil.example") == 403
+        assert answer(f"{page}frames", "192.168.1.5") == 403
+    with simulator.serve(chip, "0.0.0.0", port=0, token="mine") as server:
+        assert server.url.endswith("/?token=mine")
+    with simulator.serve(chip, port=0) as server:
+        assert "token" not in server.url
+
+
+@pytest.mark.parametrize(
+    ("host", "port", "kind"),
+    [
+        ("127.0.0.1", 70000, ValueError),
+        ("127.0.0.1", -1, ValueError),
+        ("192.0.2.1", 0, OSError),
+        ("a" * 300, 0, UnicodeError),
+    ],
+)
+def test_a_place_that_cannot_be_is_refused_at_once(
+    chip: simulator.SSD1306, host: str, port: int, kind: type[Exception]
+) -> None:
+    with pytest.raises(kind):
+        simulator.serve(chip, host, port)
+
+
+def test_colors_cannot_end_the_script(chip: simulator.SSD1306) -> None:
+    text = ""
+
+    async def use(client: aiohttp.ClientSession) -> None:
+        nonlocal text
+        async with client.get(server.url) as response:
+            text = await response.text()
+
+    with simulator.serve(chip, port=0, look=simulator.Look(lit="</script><script>alert(1)")) as server:
+        session(use)
+    assert text.count("<script>") == 1
+
+
 def test_frames_are_pushed_as_they_come(chip: simulator.SSD1306, server: Any) -> None:
     async def use(client: aiohttp.ClientSession) -> None:
         async with client.ws_connect(server.url + "frames") as feed:
