@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from math import cos, nextafter, radians, sin
+from math import cos, hypot, nextafter, radians, sin
 
 _EXACT = 1 << 53
 _NEARLY = nextafter(360, 0)
 
+# How far an arc may reach that is not halved any more to see where it is: in pixels.
+_SHORT = 64
+
 Vector = tuple[int, int]
+Turn = tuple[float, float]
 
 
 def sweep(start: float, end: float) -> float:
@@ -33,3 +37,55 @@ def is_reflex(start: Vector, end: Vector, swept: float) -> bool:
     """Whether more than half a turn lies between two vectors whose angles, before rounding, were `swept` apart."""
     cross = start[0] * end[1] - start[1] * end[0]
     return cross < 0 if cross and 90 < swept < 270 else swept > 180
+
+
+def dashes(turn: Turn, radius: float, dash: list[int], center: tuple[float, float], window: list[int]) -> list[Turn]:
+    """Which arcs a dash pattern shows of one and can be seen: where each begins and how far it goes on, in degrees.
+
+    Lengths are in pixels, those of the pattern in 256ths; its pixels at both ends count. The window is left, top, right
+    and bottom.
+    """
+    start, swept = turn
+    degree = radians(1) * radius
+    if degree == 0 or dash[0] >= 256 * swept * degree:
+        return [turn]
+    lengths = [number / 256 for number in dash]
+    period = sum(lengths)
+    begins = [sum(lengths[:i]) for i in range(0, len(lengths), 2)]
+    arcs: list[Turn] = []
+    following = 0
+    for begin, turned in _seen(turn, radius, center, window):
+        first = (begin - start) * degree
+        last = first + turned * degree
+        number = max(following, int(first // period) * len(begins))
+        while True:
+            periods, i = divmod(number, len(begins))
+            passed = periods * period + begins[i]
+            if passed >= last:
+                break
+            if passed + lengths[2 * i] >= first:
+                length = max(min(lengths[2 * i] - 1, swept * degree - passed), 0)
+                arcs.append((start + passed / degree, length / degree))
+            number += 1
+        following = number
+    return arcs
+
+
+def _seen(turn: Turn, radius: float, center: tuple[float, float], window: list[int]) -> list[Turn]:
+    """The parts of an arc that are not far from a window, in order."""
+    left, top, right, bottom = window
+    parts = []
+    open_turns = [turn]
+    while open_turns:
+        start, swept = open_turns.pop()
+        middle = radians(start + swept / 2)
+        x, y = center[0] + radius * cos(middle), center[1] + radius * sin(middle)
+        # No point of it is further from its middle; and a pixel may be one off.
+        reach = 2 * radius * sin(radians(swept / 4)) + 2
+        if hypot(max(left - x, x - right, 0), max(top - y, y - bottom, 0)) > reach:
+            continue
+        if reach <= _SHORT:
+            parts.append((start, swept))
+        else:
+            open_turns += [(start + swept / 2, swept / 2), (start, swept / 2)]
+    return parts

@@ -20,6 +20,8 @@ cdef class Painter:
     cdef Contours contours
     cdef Style kept_style
     cdef object antialias
+    # The round shape that is being drawn: its center and its radii.
+    cdef long long x, y, a, b
 
     cdef object paint_with(self, object c, object op)
     cdef Style style(
@@ -65,6 +67,7 @@ cdef class Painter:
     )
     cdef object _fill_polygon(self, Numbers corners, object coords, bint nonzero, bint covered, Style style)
     cdef object _thin_rect(self, long long left, long long top, long long right, long long bottom, bint fill)
+    cdef list _read_round(self, object x, object y, object a, object b, str name_a, str name_b, Style style)
     cdef object _round_shape(
         self, long long left, long long top, long long right, long long bottom, long long a, long long b, bint sharp,
         bint fill, Part part, Style style,
@@ -75,8 +78,10 @@ cdef class Painter:
     cdef object _far_line(self, object ends, Style style, bint dda)
     cdef object _far_thin_path(self, Surface surface, object points, bint closed, object dash, bint dda)
     cdef object _far_path(self, object points, bint closed, Style style)
-    cdef object _far_polygon(self, object corners, bint nonzero, bint covered, Style style)
-    cdef object _far_shape(self, object outline, object grown, bint closed, bint fill, Style style)
-    cdef object _far_box(self, object numbers, bint fill, Style style)
-    cdef object _far_ellipse(self, object numbers, int quadrants, bint fill, Style style)
-    cdef object _far_turn(self, object numbers, object start, object swept, bint is_sector, bint fill, Style style)
+    cdef object _far_fill(self, object shape, bint nonzero, Style style)
+    cdef object _far_outlines(self, object paths, bint closed, bint fill, bint nonzero, Style style)
+    cdef object _far_box(self, object box, object a, object b, bint sharp, bint fill, Style style)
+    cdef object _far_quarters(self, object x, object y, object a, object b, int quadrants, bint fill, Style style)
+    cdef object _far_turn(
+        self, object x, object y, object r, object start, object swept, bint is_sector, bint fill, Style style
+    )

@@ -8,8 +8,6 @@ that is far away, is in 256ths of a pixel.
 from __future__ import annotations
 
 from array import array
-from itertools import pairwise
-from math import radians
 
 import cython
 from cython.cimports.paneldraw.framebuffer.arguments import (
@@ -41,7 +39,7 @@ from cython.cimports.paneldraw.raster.surface import OVER, Surface
 from cython.cimports.paneldraw.raster.thick_line import filtered_line, thick_line
 
 from paneldraw.framebuffer import pictures
-from paneldraw.framebuffer.angles import direction, is_reflex
+from paneldraw.framebuffer.angles import dashes, direction, is_reflex
 from paneldraw.framebuffer.arguments import (
     check_antialias,
     choice,
@@ -52,7 +50,7 @@ from paneldraw.framebuffer.arguments import (
     size,
     whole,
 )
-from paneldraw.raster import clip
+from paneldraw.raster import clip, outline
 from paneldraw.raster.circle import UNIT as THIN_UNIT
 from paneldraw.raster.disc import UNIT
 from paneldraw.raster.stroke import CAPS, JOINS
@@ -207,16 +205,19 @@ class Painter:
 
     def _fill_polygon(self, corners, coords, nonzero, covered, style):
         """Fill what corners enclose and, if it is to be covered, what lies on the lines between them."""
-        outline: Numbers
+        lines: Numbers
         covered = covered and style.antialias is None
         if corners.exact is not None:
-            self._far_polygon(corners.exact, nonzero, covered, style)
+            if covered:
+                self._far_outlines([corners.exact], True, True, nonzero, style)
+            else:
+                self._far_fill([corners.exact], nonzero, style)
             return
         marks: Surface = once(self.surface) if covered else self.surface
         self._fill(marks, corners.values, corners.count, nonzero, style.antialias)
         if covered:
-            outline = points_of("coords", coords, 1)
-            polyline(marks, outline.values, outline.count, True, outline.values, 0, 0, False)
+            lines = points_of("coords", coords, 1)
+            polyline(marks, lines.values, lines.count, True, lines.values, 0, 0, False)
             painted(self.surface, marks, self.surface.top, self.surface.bottom)
 
     def fill(self, c):
@@ -334,37 +335,47 @@ class Painter:
         polygon(self.coverage, contours.points, contours.ends, contours.contours, nonzero)
         self.coverage.finish()
 
+    def _read_round(self, x, y, a, b, name_a, name_b, style):
+        """Read a center and two radii into `x`, `y`, `a` and `b`: in half pixels if it is thin, else in 256ths.
+
+        Returns None; or, if one of them is beyond reach, all four as Python's integers, in 256ths.
+        """
+        unit: cython.longlong = 2 if style.thin else 256
+        self.x = coordinate("x", x, unit)
+        self.y = coordinate("y", y, unit)
+        self.a = extent(name_a, a, unit)
+        self.b = self.a if b is a else extent(name_b, b, unit)
+        if self.x != FAR and self.y != FAR and self.a != FAR and self.b != FAR:
+            return None
+        return _in_256ths((("x", x), ("y", y), (name_a, a), (name_b, b)))
+
     def circle(self, x, y, r, fill, style):
         """Draw a circle or disc."""
-        unit: cython.longlong = 2 if style.thin else 256
-        cx: cython.longlong = coordinate("x", x, unit)
-        cy: cython.longlong = coordinate("y", y, unit)
-        radius: cython.longlong = extent("r", r, unit)
-        if cx == FAR or cy == FAR or radius == FAR:
-            numbers = _in_256ths((("x", x), ("y", y), ("r", r), ("r", r)))
-            self._far_ellipse(numbers, 15, fill, style)
+        far = self._read_round(x, y, r, r, "r", "r", style)
+        if far is not None:
+            cx, cy, a, b = far
+            self._far_box((cx, cy, cx, cy), a, b, False, fill, style)
         elif not style.thin:
-            self._round_shape(cx, cy, cx, cy, radius, radius, False, fill, None, style)
+            self._round_shape(self.x, self.y, self.x, self.y, self.a, self.a, False, fill, None, style)
         elif fill:
-            thin_disc(self.surface, cx, cy, radius)
+            thin_disc(self.surface, self.x, self.y, self.a)
         else:
-            circle(self.surface, cx, cy, radius)
+            circle(self.surface, self.x, self.y, self.a)
 
     def ellipse(self, x, y, xr, yr, fill, quadrants, style):
         """Draw quarters of an ellipse."""
-        unit: cython.longlong = 2 if style.thin else 256
-        cx: cython.longlong = coordinate("x", x, unit)
-        cy: cython.longlong = coordinate("y", y, unit)
-        a: cython.longlong = extent("xr", xr, unit)
-        b: cython.longlong = extent("yr", yr, unit)
-        if cx == FAR or cy == FAR or a == FAR or b == FAR:
-            numbers = _in_256ths((("x", x), ("y", y), ("xr", xr), ("yr", yr)))
-            self._far_ellipse(numbers, quadrants, fill, style)
+        far = self._read_round(x, y, xr, yr, "xr", "yr", style)
+        if far is not None:
+            cx, cy, a, b = far
+            if quadrants == 15:
+                self._far_box((cx, cy, cx, cy), a, b, False, fill, style)
+            else:
+                self._far_quarters(cx, cy, a, b, quadrants, fill, style)
         elif style.thin:
-            ellipse(self.surface, cx, cy, a, b, fill, quadrants)
+            ellipse(self.surface, self.x, self.y, self.a, self.b, fill, quadrants)
         elif quadrants:
             part = None if quadrants == 15 else Part(quadrants, (0, 0), (0, 0), False, False, 0)
-            self._round_shape(cx, cy, cx, cy, a, b, False, fill, part, style)
+            self._round_shape(self.x, self.y, self.x, self.y, self.a, self.b, False, fill, part, style)
 
     def box(self, x, y, w, h, r, fill, style):
         """Draw a rectangle, its corners sharp for r = 0 or else round."""
@@ -375,8 +386,11 @@ class Painter:
         down: cython.longlong = extent("h", h, unit)
         corner: cython.longlong = extent("r", r, 2 * unit if style.thin else unit)
         if left == FAR or top == FAR or across == FAR or down == FAR:
-            numbers = _in_256ths((("x", x), ("y", y), ("w", w), ("h", h), ("r", r)))
-            self._far_box(numbers, fill, style)
+            wx, wy, ww, wh, wr = _in_256ths((("x", x), ("y", y), ("w", w), ("h", h), ("r", r)))
+            if ww > 0 and wh > 0:
+                wr = max(min(wr, (ww - 256) // 2, (wh - 256) // 2), 0)
+                box = (wx + wr, wy + wr, wx + ww - 256 - wr, wy + wh - 256 - wr)
+                self._far_box(box, wr, wr, wr == 0, fill, style)
             return
         if across == 0 or down == 0:
             return
@@ -434,51 +448,47 @@ class Painter:
 
     def slice(self, x, y, r, start, end, swept, fill, style):
         """Draw a sector of less than a full turn."""
-        unit: cython.longlong = 2 if style.thin else 256
-        cx: cython.longlong = coordinate("x", x, unit)
-        cy: cython.longlong = coordinate("y", y, unit)
-        radius: cython.longlong = extent("r", r, unit)
-        if cx == FAR or cy == FAR or radius == FAR:
-            numbers = _in_256ths((("x", x), ("y", y), ("r", r)))
-            self._far_turn(numbers, start, swept, True, fill, style)
+        far = self._read_round(x, y, r, r, "r", "r", style)
+        if far is not None:
+            self._far_turn(far[0], far[1], far[2], start, swept, True, fill, style)
         elif style.thin:
             (sx, sy), (ex, ey) = direction(start, THIN_UNIT), direction(end, THIN_UNIT)
-            sector(self.surface, cx, cy, radius, sx, sy, ex, ey, swept > 180, fill)
+            sector(self.surface, self.x, self.y, self.a, sx, sy, ex, ey, swept > 180, fill)
         else:
             begin, stop = direction(start, UNIT), direction(end, UNIT)
             part = Part(0, begin, stop, is_reflex(begin, stop, swept), not fill, 0)
-            self._round_shape(cx, cy, cx, cy, radius, radius, False, fill, part, style)
+            self._round_shape(self.x, self.y, self.x, self.y, self.a, self.a, False, fill, part, style)
 
     def turn(self, x, y, r, start, end, swept, style):
         """Draw an arc, which may be dashed."""
-        unit: cython.longlong = 2 if style.thin else 256
-        cx: cython.longlong = coordinate("x", x, unit)
-        cy: cython.longlong = coordinate("y", y, unit)
-        radius: cython.longlong = extent("r", r, unit)
-        if cx == FAR or cy == FAR or radius == FAR:
-            numbers = _in_256ths((("x", x), ("y", y), ("r", r)))
-            self._far_turn(numbers, start, swept, False, False, style)
+        far = self._read_round(x, y, r, r, "r", "r", style)
+        if far is not None:
+            self._far_turn(far[0], far[1], far[2], start, swept, False, False, style)
         elif style.thin:
-            self._thin_arc(cx, cy, radius, start, swept, style)
+            self._thin_arc(self.x, self.y, self.a, start, swept, style)
         elif style.dash is not None:
-            memory = arc_path(cx, cy, radius, start, swept)
-            self._dashed_arc(memory, (cx, cy, radius), swept >= 360, style)
+            memory = arc_path(self.x, self.y, self.a, start, swept)
+            self._dashed_arc(memory, (self.x, self.y, self.a), swept >= 360, style)
         else:
             begin, stop = direction(start, UNIT), direction(end, UNIT)
             part = Part(0, begin, stop, is_reflex(begin, stop, swept), False, style.cap)
-            self._round_shape(cx, cy, cx, cy, radius, radius, False, False, part, style)
+            self._round_shape(self.x, self.y, self.x, self.y, self.a, self.a, False, False, part, style)
 
     def _thin_arc(self, cx, cy, radius, start, swept, style):
         """Draw an aliased arc of width 1, in half pixels; dashed, it is an arc for every dash."""
-        pieces = [(start, swept)] if style.dash is None else _dashed_angles(start, swept, radius / 2, style.dash)
-        marks: Surface = once(self.surface)
+        surface: Surface = self.surface
+        pieces = [(start, swept)]
+        if style.dash is not None:
+            window = [surface.left, surface.top, surface.right, surface.bottom]
+            pieces = dashes((start, swept), radius / 2, style.dash, (cx / 2, cy / 2), window)
+        marks: Surface = once(surface)
         for begin, turned in pieces:
             if turned >= 360:
                 circle(marks, cx, cy, radius)
             else:
                 (sx, sy), (ex, ey) = direction(begin, THIN_UNIT), direction(begin + turned, THIN_UNIT)
                 arc(marks, cx, cy, radius, sx, sy, ex, ey, turned > 180)
-        painted(self.surface, marks, self.surface.top, self.surface.bottom)
+        painted(surface, marks, surface.top, surface.bottom)
 
     def _dashed_arc(self, memory, circle, closed, style):
         """Draw the dashed stroke along the points of an arc or circle."""
@@ -583,8 +593,7 @@ class Painter:
         elif style.thin:
             self._far_thin_path(self.surface, [256 * number for number in ends], False, style.dash, dda)
         elif style.dash is None and style.cap != _ROUND:
-            corners = clip.thick_line(*ends, style.width, style.cap == _SQUARE)
-            self._far_polygon(corners, True, False, style)
+            self._far_fill([outline.thick_line(*ends, style.width, style.cap == _SQUARE)], True, style)
         else:
             self._far_path(ends, False, style)
 
@@ -607,94 +616,70 @@ class Painter:
             self._add_piece(int64s(memory), len(piece) // 2, False, style, distance % period, False)
         self._fill_contours(style, True)
 
-    def _far_polygon(self, corners, nonzero, covered, style):
-        """Fill a polygon with corners at any distance, in 256ths; with `covered`, its outline too."""
-        cut = clip.cut_polygon(corners)
-        memory = bytearray(array("q", cut))
-        marks: Surface = once(self.surface) if covered else self.surface
-        self._fill(marks, int64s(memory), len(cut) // 2, nonzero, style.antialias)
-        if covered:
-            self._far_thin_path(marks, corners, True, None, False)
-            painted(self.surface, marks, self.surface.top, self.surface.bottom)
+    def _far_fill(self, shape, nonzero, style):
+        """Fill contours with corners at any distance, in 256ths."""
+        contours: Contours = self.contours
+        contours.begin()
+        for contour in shape:
+            for x, y in clip.pairs(clip.cut_polygon(contour)):
+                contours.add(x, y)
+            contours.close()
+        self._fill_contours(style, nonzero)
 
-    def _far_shape(self, outline, grown, closed, fill, style):
-        """Draw along an outline of any size, or fill the one that is half a width larger; in 256ths."""
-        if fill:
-            self._far_polygon(outline if style.thin else grown, True, style.thin, style)
-        elif style.thin:
-            marks: Surface = once(self.surface)
-            self._far_thin_path(marks, outline, closed, style.dash, False)
-            painted(self.surface, marks, self.surface.top, self.surface.bottom)
-        else:
-            self._far_path(outline, closed, style)
-
-    def _far_box(self, numbers, fill, style):
-        """Draw a rectangle of any size."""
-        x, y, w, h, r = numbers
-        r = max(min(r, (w - 256) // 2, (h - 256) // 2), 0)
-        left, top, right, bottom = x + r, y + r, x + w - 256 - r, y + h - 256 - r
-        beyond = style.width // 2
-        corner = r + beyond if r else 0
-        edge = 0 if r else beyond
-        if w > 0 and h > 0:
-            self._far_shape(
-                clip.rounded_box(left, top, right, bottom, r, r),
-                clip.rounded_box(left - edge, top - edge, right + edge, bottom + edge, corner, corner),
-                True,
-                fill,
-                style,
-            )
-
-    def _far_ellipse(self, numbers, quadrants, fill, style):
-        """Draw quarters of an ellipse of any size."""
-        x, y, a, b = numbers
-        beyond = style.width // 2
-        if quadrants == 15:
-            grown = clip.rounded_box(x, y, x, y, a + beyond, b + beyond)
-            self._far_shape(clip.rounded_box(x, y, x, y, a, b), grown, True, fill, style)
+    def _far_outlines(self, paths, closed, fill, nonzero, style):
+        """Draw paths of any size, thin or dashed, or fill what they enclose and draw them thin."""
+        if not style.thin and not fill:
+            for path in paths:
+                self._far_path(path, closed, style)
             return
-        sides: tuple = ((1, (0, -1), (1, 0)), (2, (-1, 0), (0, -1)), (4, (0, 1), (-1, 0)), (8, (1, 0), (0, 1)))
-        for bit, start, end in sides:
-            if quadrants & bit:
-                outline = clip.arc(x, y, a, b, start, end)
-                grown = clip.arc(x, y, a + beyond, b + beyond, start, end)
-                center = [x, y] if fill else []
-                self._far_shape(center + outline, center + grown, False, fill, style)
+        surface: Surface = self.surface
+        marks: Surface = once(surface)
+        self.coverage.surface = marks
+        if fill:
+            self._far_fill(paths, nonzero, style)
+        self.coverage.surface = surface
+        for path in paths:
+            self._far_thin_path(marks, path, closed or fill, None if fill else style.dash, False)
+        painted(surface, marks, surface.top, surface.bottom)
 
-    def _far_turn(self, numbers, start, swept, is_sector, fill, style):
+    def _far_box(self, box, a, b, sharp, fill, style):
+        """Draw a rectangle or ellipse of any size, as `_round_shape` does it."""
+        if style.thin or (style.dash is not None and not fill):
+            self._far_outlines([outline.rounded_box(*box, a, b)], True, fill, True, style)
+        else:
+            draw = outline.disc if fill else outline.ring
+            self._far_fill(draw(box, a, b, sharp, style.width // 2), True, style)
+
+    def _far_quarters(self, x, y, a, b, quadrants, fill, style):
+        """Draw quarters of an ellipse of any size."""
+        if style.thin:
+            paths = outline.thin_quarters(x, y, a, b, quadrants, fill)
+            self._far_outlines(paths, False, fill, True, style)
+        else:
+            self._far_fill(outline.quarters(x, y, a, b, quadrants, fill, style.width // 2), True, style)
+
+    def _far_turn(self, x, y, r, start, swept, is_sector, fill, style):
         """Draw an arc or a sector of any size."""
-        x, y, r = numbers
         quarters = max(int(-(-swept // 90)), 1)
         turns = [direction(start + swept * k / quarters, _FAR_UNIT) for k in range(quarters + 1)]
-        outline, grown = ([x, y], [x, y]) if is_sector else ([], [])
-        for begin, end in pairwise(turns):
-            outline += clip.arc(x, y, r, r, begin, end)
-            grown += clip.arc(x, y, r + style.width // 2, r + style.width // 2, begin, end)
-        self._far_shape(outline, grown, is_sector or swept >= 360, fill, style)
+        half = style.width // 2
+        if style.thin or (style.dash is not None and not is_sector):
+            path = [x, y] * is_sector + outline.arc(x, y, r, turns)
+            self._far_outlines([path], is_sector or swept >= 360, fill, True, style)
+        elif fill:
+            self._far_fill(outline.slice_of_disc(x, y, r + half, turns), True, style)
+        else:
+            shape = outline.slice_of_ring(x, y, r, turns, half)
+            if is_sector:
+                shape += outline.spokes(x, y, r, turns, half)
+            elif style.cap != _BUTT:
+                shape += outline.arc_caps(x, y, r, turns, half, style.cap == _ROUND)
+            self._far_fill(shape, True, style)
 
 
 def _in_256ths(names):
     """Numbers of any size, each behind its name, in 256ths of a pixel."""
     return [nearest(name, value, 256) for name, value in names]
-
-
-def _dashed_angles(start, swept, radius, dash):
-    """The arcs that a dash pattern shows, in pixels: where each begins and how far it goes on, in degrees."""
-    turn = radians(1) * radius
-    length = swept * turn
-    if dash[0] >= 256 * length or radius == 0:
-        return [(start, swept)]
-    lengths = [number / 256 for number in dash]
-    arcs = []
-    passed = 0.0
-    while passed < length:
-        for shown, left_out in zip(lengths[::2], lengths[1::2], strict=True):
-            # The pixels of both its ends count.
-            arcs.append((start + passed / turn, max(min(shown - 1, length - passed), 0.0) / turn))
-            passed += shown + left_out
-            if passed >= length:
-                break
-    return arcs
 
 
 @cython.cfunc

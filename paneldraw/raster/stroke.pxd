@@ -34,10 +34,11 @@ cdef class Stroke:
     cdef object _corner(self, double x, double y, double vx, double vy, double ux, double uy)
     cdef object _arc(self, double x, double y, double dx, double dy, double ex, double ey, double angle)
     cdef bint _is_seen(self, double left, double right, double top, double bottom, double margin) noexcept
-    cdef (double, double) _seen(self, double *points, Py_ssize_t i, int cap) noexcept
+    cdef double _next_seen(self, Way view, double start, int cap) noexcept
+    cdef (double, double) _seen(self, double *points, Py_ssize_t count, Py_ssize_t i, int cap) noexcept
+    cdef bint _is_corner_seen(self, double *points, Py_ssize_t i, double ux, double uy) noexcept
     cdef bint _covers_all(self, double x, double y) noexcept
     cdef object dashes(self, double *points, Py_ssize_t count, bint closed, int cap, list dash, double distance)
-    cdef long long _unseen(self, Way way, double start, double end, int cap, double period) noexcept
 
 cdef class Way:
     cdef double *points
@@ -49,7 +50,7 @@ cdef class Way:
 
     cdef object begin(self, double *points, Py_ssize_t count)
     cdef bint reach(self, double distance) noexcept
-    cdef void _move(self) noexcept
+    cdef void move(self) noexcept
     cdef Py_ssize_t piece(self, double start, double end) except -1
 
 cdef Py_ssize_t distinct(long long *values, Py_ssize_t count, double *points) noexcept nogil

@@ -7,7 +7,7 @@ the non-zero rule makes one shape of them. Lengths are in 256ths of a pixel, to 
 import cython
 from cython.cimports.libc.math import acos, atan2, ceil, cos, floor, rint, sin, sqrt
 
-from paneldraw.raster.clip import REACH, cut_polygon
+from paneldraw.raster.clip import LIMIT, MARGIN, cut_polygon
 
 #: The numbers by which `Stroke` knows a cap and a join.
 CAPS = {"butt": 0, "square": 1, "round": 2}
@@ -16,11 +16,8 @@ JOINS = {"miter": 0, "round": 1, "bevel": 2}
 _BUTT = cython.declare(cython.int, 0)
 _SQUARE = cython.declare(cython.int, 1)
 _ROUND = cython.declare(cython.int, 2)
-_LIMIT = cython.declare(cython.double, 256.0 * REACH)
+_LIMIT = cython.declare(cython.double, LIMIT)
 _PI = cython.declare(cython.double, 3.141592653589793)
-
-# More than a filter sees beyond a surface.
-_MARGIN = cython.declare(cython.double, 1280)
 
 # How far an arc may be from its chords, and how far round caps may be from closing a gap.
 _FLAT = cython.declare(cython.double, 0.25)
@@ -124,8 +121,8 @@ class Stroke:
             self.x, self.y, self.radius = circle
         # Beyond the center radii have crossed each other.
         self.around = circle is not None and self.half <= self.radius
-        self.low = -_MARGIN
-        self.high = 256 * pixels + _MARGIN
+        self.low = -MARGIN
+        self.high = 256 * pixels + MARGIN
 
     def path(self, points, count, closed, cap, end_cap):
         """Add the stroke along `count` points (x, y), no two neighbors of which are equal.
@@ -242,21 +239,49 @@ class Stroke:
             and top - margin <= self.high
         )
 
-    def _seen(self, points, i, cap):
-        """Between which distances from point i the dashes of its segment, and caps that end them, can be seen."""
+    def _next_seen(self, view, start, cap):
+        """Move on to the first segment of which something can be seen from a distance along the path on.
+
+        Returns from which distance that is; where nothing more can be seen, how long the path is.
+        """
+        while True:
+            low, high = self._seen(view.points, view.count, view.i, cap)
+            if low <= high and view.passed + high > start:
+                return view.passed + low
+            if view.i >= view.count - 2:
+                return view.ahead
+            view.move()
+
+    def _seen(self, points, count, i, cap):
+        """Between which distances from point i the dashes of its segment can be seen, and caps that end them.
+
+        With the corner at its end, if its join can be seen. If nothing can, the first distance is the larger one.
+        """
         length: cython.double = _length(points, i, i + 1)
         ux, uy = _unit_vector(points, i, i + 1)
         x: cython.double = (self.low + self.high) / 2 - points[2 * i]
         y: cython.double = (self.low + self.high) / 2 - points[2 * i + 1]
         reach: cython.double = (self.high - self.low) / 2 * (abs(ux) + abs(uy))
         aside: cython.double = max(abs(x * uy - y * ux) - reach, 0)
-        if aside > self.half:
-            return length, 0.0
-        if cap == _ROUND:
-            reach += sqrt(self.half**2 - aside**2)
-        first: cython.double = max(x * ux + y * uy - reach, 0)
-        last: cython.double = min(x * ux + y * uy + reach, length)
-        return (first, last) if first <= last else (length, 0.0)
+        first: cython.double = length
+        last: cython.double = -1
+        if aside <= self.half:
+            if cap == _ROUND:
+                reach += sqrt(self.half**2 - aside**2)
+            first = max(x * ux + y * uy - reach, 0)
+            last = min(x * ux + y * uy + reach, length)
+        if i < count - 2 and self._is_corner_seen(points, i + 1, ux, uy):
+            return min(first, length), length
+        return first, last
+
+    def _is_corner_seen(self, points, i, ux, uy):
+        """Whether something can be seen of the join at point i, where direction u ends."""
+        vx, vy = _unit_vector(points, i, i + 1)
+        dot: cython.double = ux * vx + uy * vy
+        reach: cython.double = self.half
+        if self.join == 0 and 8 * (1 + dot) >= 1:
+            reach *= sqrt(2 / (1 + dot))
+        return self._is_seen(points[2 * i], points[2 * i], points[2 * i + 1], points[2 * i + 1], reach)
 
     def _covers_all(self, x, y):
         """Whether all that can be seen is in a disc around a point."""
@@ -268,8 +293,8 @@ class Stroke:
         """Add the strokes of the pieces of a path that a dash pattern shows, back to its first point if it is closed.
 
         The pattern, alternately a length that is drawn and one that is left out, goes on around corners; the path
-        begins at `distance` within it. A round cap ends every piece, a square one the path. Between corners pieces
-        that cannot be seen are left out.
+        begins at `distance` within it. A round cap ends every piece, a square one the path. Pieces that cannot
+        be seen are left out.
         """
         whole: cython.double = _whole_length(points, count) + distance
         if cap == _ROUND and max(dash[1::2]) ** 2 < 8 * _FLAT * self.half:
@@ -277,6 +302,8 @@ class Stroke:
             dash = [_last_end(whole, dash), _ENDLESS]
         way: Way = Way()
         way.begin(points, count)
+        view: Way = Way()
+        view.begin(points, count)
         inner: cython.int = _ROUND if cap == _ROUND else _BUTT
         first_cap: cython.int = cap if distance == 0 else inner
         last_cap: cython.int = cap
@@ -298,28 +325,20 @@ class Stroke:
             number += 1
             if end <= 0:
                 continue
+            skip: cython.double = self._next_seen(view, start, cap)
+            if start > 0 and end < skip:
+                if number % pairs == 0:
+                    # Fewer periods by one, so that no piece that reaches into view is lost.
+                    number += pairs * cython.cast(cython.longlong, max(floor((skip - end) / period) - 1, 0))
+                continue
             if not way.reach(start):
                 return
-            if start > 0 and number % pairs == 0:
-                unseen: cython.longlong = self._unseen(way, start, end, cap, period)
-                if unseen:
-                    number += pairs * (unseen - 1)
-                    continue
             count = way.piece(max(start, 0), end)
             if cap == _ROUND and self._covers_all(way.cut[0], way.cut[1]):
                 self.path(way.cut, 1, False, cap, cap)
                 return
             if count > 1:
                 self.path(way.cut, count, False, first_cap if start <= 0 else inner, last_cap if way.ended else inner)
-
-    def _unseen(self, way, start, end, cap, period):
-        """How many periods, from a dash on, show nothing on a way's present segment; fewer by one, or 0 of none.
-
-        So no piece that reaches into view is lost.
-        """
-        low, high = self._seen(way.points, way.i, cap)
-        skip: cython.double = way.ahead if way.passed + high <= start else min(way.passed + low, way.ahead)
-        return cython.cast(cython.longlong, max(floor((skip - end) / period), 1)) if end < skip else 0
 
 
 @cython.final
@@ -343,10 +362,11 @@ class Way:
     def reach(self, distance):
         """Move on to the segment that holds a distance; return whether the path is as long."""
         while distance >= self.ahead and self.i < self.count - 2:
-            self._move()
+            self.move()
         return distance < self.ahead
 
-    def _move(self):
+    def move(self):
+        """Move on to the next segment."""
         self.i += 1
         self.passed = self.ahead
         self.ahead += _length(self.points, self.i, self.i + 1)
@@ -357,7 +377,7 @@ class Way:
         cut: cython.p_double = self.cut
         _at(self.points, self.i, start - self.passed, cut)
         while end > self.ahead and self.i < self.count - 2:
-            self._move()
+            self.move()
             cut[2 * k] = self.points[2 * self.i]
             cut[2 * k + 1] = self.points[2 * self.i + 1]
             k += 1
