@@ -3,14 +3,16 @@
 For each machine it unpacks a small Debian and builds the package with Debian's cross compiler, which must not warn of
 what `c_warnings.py` looks for. There, emulated, run those of `random_shapes.py`, whose hashes have to be those of this
 machine, and those tests of drawing that compare with patterns: what searches would take long, and the shapes have
-already been compared. Ends with 1 if anything differs or fails. Where Debian's packages cannot be had it says so and
-ends with 0.
+already been compared. Ends with 1 if anything differs or fails. Where Debian's packages cannot be had it says which and
+why, and ends with 0; a mirror that does not answer is a failure in CI.
 """
 
 from __future__ import annotations
 
 import functools
+import http.client
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -40,8 +42,8 @@ TESTS = (
 )
 
 
-class UnreachableError(Exception):
-    """Debian's packages cannot be had here."""
+class MissingError(Exception):
+    """Packages of Debian's that cannot be had here; the argument says which and why."""
 
 
 class CommandError(Exception):
@@ -71,14 +73,17 @@ MACHINES = (
 
 def run(command: Iterable[str | Path], folder: Path, **environment: str) -> str:
     """Return what a command prints; what it needs of the environment is given by name."""
-    done = subprocess.run(
-        [str(word) for word in command],
-        cwd=folder,
-        env=os.environ | environment,
-        stdin=subprocess.DEVNULL,
-        capture_output=True,
-        text=True,
-    )
+    try:
+        done = subprocess.run(
+            [str(word) for word in command],
+            cwd=folder,
+            env=os.environ | environment,
+            stdin=subprocess.DEVNULL,
+            capture_output=True,
+            text=True,
+        )
+    except FileNotFoundError as missing:
+        raise CommandError(f"{missing.filename}: not there; .ci/apt-packages says what it belongs to") from None
     if done.returncode:
         raise CommandError(f"{' '.join(map(str, command))}\n{done.stdout[-4000:]}{done.stderr[-4000:]}")
     return done.stdout
@@ -86,11 +91,44 @@ def run(command: Iterable[str | Path], folder: Path, **environment: str) -> str:
 
 def mirror() -> str:
     """Return where this machine has its packages from."""
+    if shutil.which("apt-get") is None:
+        raise MissingError("all packages: this machine has no apt-get")
     listed = ["apt-get", "indextargets", "--format", "$(REPO_URI)", "Label: Debian", "Component: main"]
     found = run(listed, PROJECT).split()
     if not found:
-        raise UnreachableError("this machine has no packages of Debian's")
+        raise MissingError("all packages: this machine has none of Debian's")
     return found[0].rstrip("/")
+
+
+def read(url: str) -> str:
+    """Return what a mirror has at an address; "" if it says that it has nothing there. Asks three times."""
+    for pause in (5, 15, None):
+        try:
+            with urllib.request.urlopen(url, timeout=30) as answer:
+                return str(answer.read().decode())
+        except urllib.error.HTTPError as error:
+            if error.code in (404, 410):
+                return ""
+            reason: object = error
+        except (OSError, http.client.HTTPException) as error:
+            reason = getattr(error, "reason", error)
+        if pause is not None:
+            time.sleep(pause)
+    if os.environ.get("CI"):
+        raise CommandError(f"no answer from {url}: {reason}")
+    raise MissingError(f"all packages: no answer from {url}: {reason}")
+
+
+def look_for_packages(machine: Machine, source: str, said: str) -> None:
+    """Raise MissingError if a mirror has no packages for a machine, or not all; `said` is what apt says of them."""
+    release = read(f"{source}/dists/{SUITE}/Release")
+    architectures = re.search(r"^Architectures:(.*)$", release, re.M)
+    if architectures is None or machine.name not in architectures[1].split():
+        raise MissingError(f"all packages: {source} has none of {SUITE} for {machine.name}")
+    missing = re.findall(r"Unable to locate package (\S+)|Package '?([^' ]+)'? has no installation candidate", said)
+    if missing:
+        names = sorted({name for pair in missing for name in pair if name})
+        raise MissingError(f"{', '.join(names)}: {source} does not have them in {SUITE} for {machine.name}")
 
 
 @dataclass(frozen=True)
@@ -112,15 +150,13 @@ class Work:
 
     def unpack(self) -> None:
         """Unpack a Debian, without running anything of it."""
-        source = f"deb {mirror()} {SUITE} main"
+        source = mirror()
         options = ["--quiet", "--mode=root", "--variant=extract", f"--architectures={self.machine.name}"]
+        options += ['--aptopt=Acquire::Retries "3"', f"--include={','.join(PACKAGES)}"]
         try:
-            run(["mmdebstrap", *options, f"--include={','.join(PACKAGES)}", SUITE, self.root, source], self.folder)
-        except CommandError:
-            try:
-                urllib.request.urlopen(f"{mirror()}/dists/{SUITE}/Release", timeout=30).close()
-            except urllib.error.URLError as error:
-                raise UnreachableError(f"no answer from {mirror()}: {error.reason}") from None
+            run(["mmdebstrap", *options, SUITE, self.root, f"deb {source} {SUITE} main"], self.folder)
+        except CommandError as failure:
+            look_for_packages(self.machine, source, str(failure))
             raise
 
     @functools.cached_property
@@ -235,8 +271,8 @@ def main() -> int:
         for work, done in [(work, pool.submit(compare, work, expected)) for work in works]:
             try:
                 equal = done.result() and equal
-            except UnreachableError as reason:
-                print(f"SKIPPED {work.machine.name}: {reason}")
+            except MissingError as reason:
+                print(f"SKIPPED {work.machine.name}, for want of {reason}")
             except CommandError as failure:
                 print(f"{work.machine.name}: {failure}")
                 equal = False

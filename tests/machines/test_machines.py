@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import io
 import re
+import sys
+from urllib.error import HTTPError, URLError
 
 import c_warnings
 import compare
@@ -47,6 +50,73 @@ def test_a_difference_is_named():
     theirs = "aa circle, depth 1, aliased\ncc line, depth 2, aliased\ndd arc, depth 4, aliased\n"
     assert compare.differences(ours, ours) == []
     assert sorted(compare.differences(ours, theirs)) == ["arc, depth 4, aliased", "line, depth 2, aliased"]
+
+
+ARM = compare.MACHINES[1]
+MIRROR = "http://debian.example"
+
+
+@pytest.fixture
+def release(monkeypatch):
+    """What the mirror says of its suite, or how it fails; and no pauses."""
+    answers = []
+
+    def urlopen(url, timeout):
+        assert url == f"{MIRROR}/dists/bookworm/Release"
+        answer = answers[0] if len(answers) == 1 else answers.pop(0)
+        if isinstance(answer, Exception):
+            raise answer
+        return io.BytesIO(answer)
+
+    monkeypatch.setattr(compare.urllib.request, "urlopen", urlopen)
+    monkeypatch.setattr(compare.time, "sleep", lambda seconds: None)
+    monkeypatch.setenv("CI", "true")
+    return answers
+
+
+def test_packages_that_a_mirror_does_not_have_are_named(release):
+    release.append(b"Suite: oldstable\nArchitectures: amd64 armhf\n")
+    said = "E: Unable to locate package python3-hypothesis\nE: Unable to locate package python3-pil\n"
+    with pytest.raises(compare.MissingError, match=rf"^python3-hypothesis, python3-pil: {MIRROR} .* for armhf$"):
+        compare.look_for_packages(ARM, MIRROR, said)
+    compare.look_for_packages(ARM, MIRROR, "E: some index files failed to download")
+
+
+@pytest.mark.parametrize("answer", [b"Architectures: amd64 arm64\n", HTTPError(MIRROR, 404, "Not Found", {}, None)])
+def test_a_mirror_without_the_machine_has_no_packages(release, answer):
+    release.append(answer)
+    with pytest.raises(compare.MissingError, match=r"^all packages: .* has none of bookworm for armhf$"):
+        compare.look_for_packages(ARM, MIRROR, "")
+
+
+@pytest.mark.parametrize(
+    "error", [URLError("timed out"), TimeoutError("timed out"), HTTPError(MIRROR, 503, "timed out", {}, None)]
+)
+def test_a_mirror_that_does_not_answer_fails_in_ci(release, error, monkeypatch):
+    release.append(error)
+    with pytest.raises(compare.CommandError, match=r"^no answer from .*timed out"):
+        compare.look_for_packages(ARM, MIRROR, "")
+    monkeypatch.delenv("CI")
+    with pytest.raises(compare.MissingError, match=r"^all packages: no answer from .*timed out"):
+        compare.look_for_packages(ARM, MIRROR, "")
+    release += [error, b"Architectures: armhf\n"]
+    compare.look_for_packages(ARM, MIRROR, "")
+
+
+@pytest.mark.parametrize(("error", "code"), [(compare.MissingError, 0), (compare.CommandError, 1), (OSError, None)])
+def test_only_missing_packages_are_skipped(monkeypatch, capsys, error, code):
+    def unpack(work):
+        raise error("the reason")
+
+    monkeypatch.setattr(compare, "run", lambda *command, **names: "")
+    monkeypatch.setattr(compare.Work, "unpack", unpack)
+    monkeypatch.setattr(sys, "argv", ["compare.py", "armhf"])
+    if code is None:
+        with pytest.raises(error):
+            compare.main()
+        return
+    assert compare.main() == code
+    assert ("SKIPPED armhf, for want of the reason\n" in capsys.readouterr().out) == (code == 0)
 
 
 CODE = """
