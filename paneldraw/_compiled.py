@@ -21,6 +21,7 @@ MODULES = (
     "paneldraw.raster.stroke",
     "paneldraw.framebuffer.arguments",
     "paneldraw.framebuffer.painter",
+    "paneldraw.framebuffer.copying",
     "paneldraw.framebuffer.framebuffer",
     "paneldraw.controllers.packing",
     "paneldraw.update.order",

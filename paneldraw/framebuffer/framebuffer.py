@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 import cython
 import numpy as np
 from cython.cimports.paneldraw.framebuffer.arguments import FAR, is_word, level, near_pixel, quick, rows_of
+from cython.cimports.paneldraw.framebuffer.copying import copy_levels, move_levels, paint_picture, write_text
 from cython.cimports.paneldraw.framebuffer.painter import Painter
 from cython.cimports.paneldraw.raster.surface import Surface
 
@@ -868,7 +869,7 @@ class Framebuffer:
         True
         """
         self.painter.paint_with(c, op)
-        self.painter.text(s, x, y, font, anchor)
+        write_text(self.painter.coverage, s, x, y, font, anchor)
 
     def image(
         self,
@@ -896,7 +897,7 @@ class Framebuffer:
         ValueError
             If the array has another shape or `dither` is none of these.
         """
-        self.painter.image(picture, x, y, dither)
+        paint_picture(self.painter.surface, picture, x, y, dither)
 
     def blit(
         self,
@@ -938,7 +939,7 @@ class Framebuffer:
         #...#
         .#.#.
         """
-        self.painter.blit(_surface_of(source), x, y, key, palette)
+        copy_levels(self.painter.surface, _surface_of(source), x, y, key, palette)
 
     def scroll(self, dx: int | float, dy: int | float, c: int | None = None) -> None:
         """Move the picture by (dx, dy) pixels. What nothing moves to stays as it was or, with `c`, gets that level.
@@ -961,7 +962,7 @@ class Framebuffer:
         ..#.
         ..#.
         """
-        self.painter.scroll(dx, dy, c)
+        move_levels(self.painter.surface, dx, dy, c)
 
     # -- Parts of it
 

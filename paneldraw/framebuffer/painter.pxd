@@ -1,5 +1,4 @@
 from paneldraw.framebuffer.arguments cimport Numbers
-from paneldraw.raster.blit cimport Picture
 from paneldraw.raster.coverage cimport Coverage
 from paneldraw.raster.disc cimport Part
 from paneldraw.raster.stroke cimport Contours
@@ -45,12 +44,6 @@ cdef class Painter:
         self, object x, object y, object r, object start, object end, object swept, bint fill, Style style
     )
     cdef object turn(self, object x, object y, object r, object start, object end, object swept, Style style)
-
-    cdef object text(self, object s, object x, object y, object font, object anchor)
-    cdef object image(self, object picture, object x, object y, object dither)
-    cdef object blit(self, object source, object x, object y, object key, object palette)
-    cdef Picture _levels_of(self, object source, object palette)
-    cdef object scroll(self, object dx, object dy, object c)
 
     cdef object _rectangle(self, long long x1, long long y1, long long x2, long long y2, Style style)
     cdef object _thin_path(self, Surface surface, Numbers numbers, bint closed, Style style)

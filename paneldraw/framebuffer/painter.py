@@ -11,7 +11,6 @@ from array import array
 
 import cython
 from cython.cimports.paneldraw.framebuffer.arguments import (
-    BEYOND,
     FAR,
     Numbers,
     coordinate,
@@ -21,16 +20,13 @@ from cython.cimports.paneldraw.framebuffer.arguments import (
     level,
     near_pixel,
     points_of,
-    top_left,
-    uint8s,
 )
-from cython.cimports.paneldraw.raster.blit import Picture, blit, block, mix, paint_grays, scroll
+from cython.cimports.paneldraw.raster.blit import block
 from cython.cimports.paneldraw.raster.circle import arc, circle, ellipse, round_rect, sector
 from cython.cimports.paneldraw.raster.circle import disc as thin_disc
 from cython.cimports.paneldraw.raster.cone import ConeFilter
 from cython.cimports.paneldraw.raster.coverage import Coverage
 from cython.cimports.paneldraw.raster.disc import Part, Round, disc, ring
-from cython.cimports.paneldraw.raster.glyphs import Glyphs, one_line, stamp, write
 from cython.cimports.paneldraw.raster.line import bresenham, dashed, polyline
 from cython.cimports.paneldraw.raster.paint import once, painted
 from cython.cimports.paneldraw.raster.polygon import polygon
@@ -38,7 +34,6 @@ from cython.cimports.paneldraw.raster.stroke import Contours, Stroke, arc_path, 
 from cython.cimports.paneldraw.raster.surface import OVER, Surface
 from cython.cimports.paneldraw.raster.thick_line import filtered_line, thick_line
 
-from paneldraw.framebuffer import pictures
 from paneldraw.framebuffer.angles import dashes, direction, is_reflex
 from paneldraw.framebuffer.arguments import (
     check_antialias,
@@ -47,7 +42,6 @@ from paneldraw.framebuffer.arguments import (
     dash_steps,
     line_width,
     nearest,
-    size,
     whole,
 )
 from paneldraw.raster import clip, outline
@@ -63,9 +57,6 @@ _WIDEST = cython.declare(cython.longlong, clip.REACH * 256)
 
 # The length of the vectors that say where a far turn begins and ends: as exact as floating-point numbers are.
 _FAR_UNIT = 1 << 60
-
-# The module of text, from the first text on: a script that writes none does without it.
-_layout = cython.declare(object, None)
 
 
 @cython.final
@@ -498,92 +489,6 @@ class Painter:
         self._add_stroke(points, count, closed, style, 0, circle)
         self._fill_contours(style, True)
 
-    # -- Text and pictures
-
-    def text(self, s, x, y, font, anchor):
-        """Write text."""
-        global _layout
-        if _layout is None:
-            import paneldraw.text as _layout
-        left: cython.longlong = top_left("x", x)
-        top: cython.longlong = top_left("y", y)
-        font = _layout.font_of(font)
-        glyphs: Glyphs = font._glyphs
-        if glyphs is None or type(s) is not str or not one_line(s):
-            coverage, dx, dy = _layout.render(s, font, anchor)
-            height, width = coverage.shape
-            mask = bytearray(coverage.tobytes())
-            stamp(self.coverage, uint8s(mask), width, height, left + dx, top + dy)
-            return
-        # More is as much: one pixel of the font, beside it or not, is all there is to see.
-        factor: cython.longlong = min(font._factor, 1 << 31)
-        if not is_word(anchor, "lt"):
-            dx, dy = _layout.offset(anchor, glyphs.measure(s) * font._factor, font.height, font.baseline)
-            left += max(dx, -BEYOND)
-            top += max(dy, -BEYOND)
-        write(self.surface, glyphs, s, left, top, factor)
-
-    def image(self, picture, x, y, dither):
-        """Paint a picture of grays."""
-        left: cython.longlong = top_left("x", x)
-        top: cython.longlong = top_left("y", y)
-        levels: Picture = Picture.__new__(Picture)
-        if dither is None and (levels.read(picture) or levels.read_arrow(pictures.arrow(picture))):
-            paint_grays(self.surface, levels, left, top)
-            return
-        grays, alpha = pictures.to_gray(picture)
-        levels = Picture.__new__(Picture)
-        if dither is not None:
-            levels.read(pictures.quantize(grays, self.surface.max_level, dither))
-        else:
-            levels.read(grays)
-            if alpha is None:
-                paint_grays(self.surface, levels, left, top)
-                return
-            levels.scale(255, self.surface.max_level)
-        if alpha is None:
-            blit(self.surface, levels, left, top, -1)
-        else:
-            opacity: Picture = Picture.__new__(Picture)
-            opacity.read(alpha)
-            mix(self.surface, levels, opacity, left, top)
-
-    def blit(self, source, x, y, key, palette):
-        """Copy the levels of a surface or of an array."""
-        left: cython.longlong = top_left("x", x)
-        top: cython.longlong = top_left("y", y)
-        without: cython.int = min(max(size("key", key), -1), 256)
-        blit(self.surface, self._levels_of(source, palette), left, top, without)
-
-    def _levels_of(self, source, palette):
-        """A surface or an array of levels as a picture of levels of this surface."""
-        levels: Picture = Picture.__new__(Picture)
-        max_level: cython.int = self.surface.max_level
-        of: cython.int = max_level
-        if isinstance(source, Surface):
-            of = source.max_level
-            levels.read_surface(source)
-        elif not levels.read(source) or levels.truths:
-            raise TypeError(
-                f"source must be a Framebuffer or a uint8 array of shape (height, width), not {type(source).__name__}"
-            )
-        elif palette is None and max_level < 255 and levels.highest() > max_level:
-            raise ValueError(f"source must hold levels from 0 to {max_level}, and holds {levels.highest()}")
-        if palette is not None:
-            table = pictures.palette_table(palette, max_level)
-            if levels.highest() >= len(table):
-                raise ValueError(
-                    f"palette must have a level for each of the source, and has none for {levels.highest()}"
-                )
-            levels.look_up(table)
-        elif of != max_level:
-            levels.scale(of, max_level)
-        return levels
-
-    def scroll(self, dx, dy, c):
-        """Move what is in the window."""
-        scroll(self.surface, near_pixel("dx", dx), near_pixel("dy", dy), -1 if c is None else level(self.surface, c))
-
     # -- What reaches beyond the square that is exact: its outline, cut to the square
 
     def _far_line(self, ends, style, dda):
@@ -611,9 +516,13 @@ class Painter:
         """Draw the stroke of a path between points at any distance, in 256ths."""
         self.contours.begin()
         period = sum(style.dash) if style.dash is not None else 1
-        for piece, distance, _ in clip.cut_path(points, closed, style.dash is not None, 2 * style.width):
+        # Further than joins and caps reach.
+        beyond = 2 * style.width
+        is_whole = clip.is_near(points, beyond)
+        pieces = [(points, 0, 0)] if is_whole else clip.cut_path(points, closed, style.dash is not None, beyond)
+        for piece, distance, _ in pieces:
             memory = bytearray(array("q", piece))
-            self._add_piece(int64s(memory), len(piece) // 2, False, style, distance % period, False)
+            self._add_piece(int64s(memory), len(piece) // 2, closed and is_whole, style, distance % period, False)
         self._fill_contours(style, True)
 
     def _far_fill(self, shape, nonzero, style):

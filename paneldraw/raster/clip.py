@@ -44,6 +44,11 @@ def is_flat(numbers: list[int]) -> bool:
     return all(a * dy == b * dx for a, b in offsets)
 
 
+def is_near(numbers: list[int], beyond: int) -> bool:
+    """Whether all points lie within the square or up to `beyond` out of it."""
+    return max(map(abs, numbers), default=0) <= LIMIT + beyond
+
+
 def cut_path(numbers: list[int], closed: bool, dashed: bool, beyond: int = 0) -> list[tuple[list[int], int, int]]:
     """Return the pieces of a path that lie within the square or up to `beyond` out of it.
 

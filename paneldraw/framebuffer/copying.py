@@ -1,0 +1,103 @@
+# cython: nonecheck=True
+"""How text, pictures and the levels of other surfaces are painted, and how those of a surface are moved."""
+
+from __future__ import annotations
+
+import cython
+from cython.cimports.paneldraw.framebuffer.arguments import BEYOND, is_word, level, near_pixel, top_left, uint8s
+from cython.cimports.paneldraw.raster.blit import Picture, blit, mix, paint_grays, scroll
+from cython.cimports.paneldraw.raster.glyphs import Glyphs, one_line, stamp, write
+from cython.cimports.paneldraw.raster.surface import Surface
+
+from paneldraw.framebuffer import pictures
+from paneldraw.framebuffer.arguments import size
+
+# The module of text, from the first text on: a script that writes none does without it.
+_layout = cython.declare(object, None)
+
+
+def write_text(coverage, s, x, y, font, anchor):
+    """Write text."""
+    global _layout
+    if _layout is None:
+        import paneldraw.text as _layout
+    left: cython.longlong = top_left("x", x)
+    top: cython.longlong = top_left("y", y)
+    font = _layout.font_of(font)
+    glyphs: Glyphs = font._glyphs
+    if glyphs is None or type(s) is not str or not one_line(s):
+        shares, dx, dy = _layout.render(s, font, anchor)
+        height, width = shares.shape
+        mask = bytearray(shares.tobytes())
+        stamp(coverage, uint8s(mask), width, height, left + dx, top + dy)
+        return
+    # More is as much: one pixel of the font, beside it or not, is all there is to see.
+    factor: cython.longlong = min(font._factor, 1 << 31)
+    if not is_word(anchor, "lt"):
+        dx, dy = _layout.offset(anchor, glyphs.measure(s) * font._factor, font.height, font.baseline)
+        left += max(dx, -BEYOND)
+        top += max(dy, -BEYOND)
+    write(coverage.surface, glyphs, s, left, top, factor)
+
+
+def paint_picture(surface, picture, x, y, dither):
+    """Paint a picture of grays."""
+    left: cython.longlong = top_left("x", x)
+    top: cython.longlong = top_left("y", y)
+    levels: Picture = Picture.__new__(Picture)
+    if dither is None and (levels.read(picture) or levels.read_arrow(pictures.arrow(picture))):
+        paint_grays(surface, levels, left, top)
+        return
+    grays, alpha = pictures.to_gray(picture)
+    levels = Picture.__new__(Picture)
+    if dither is not None:
+        levels.read(pictures.quantize(grays, surface.max_level, dither))
+    else:
+        levels.read(grays)
+        if alpha is None:
+            paint_grays(surface, levels, left, top)
+            return
+        levels.scale(255, surface.max_level)
+    if alpha is None:
+        blit(surface, levels, left, top, -1)
+    else:
+        opacity: Picture = Picture.__new__(Picture)
+        opacity.read(alpha)
+        mix(surface, levels, opacity, left, top)
+
+
+def copy_levels(surface, source, x, y, key, palette):
+    """Copy the levels of a surface or of an array."""
+    left: cython.longlong = top_left("x", x)
+    top: cython.longlong = top_left("y", y)
+    without: cython.int = min(max(size("key", key), -1), 256)
+    blit(surface, _levels_of(surface, source, palette), left, top, without)
+
+
+def _levels_of(surface, source, palette):
+    """A surface or an array of levels as a picture of levels of this surface."""
+    levels: Picture = Picture.__new__(Picture)
+    max_level: cython.int = surface.max_level
+    of: cython.int = max_level
+    if isinstance(source, Surface):
+        of = source.max_level
+        levels.read_surface(source)
+    elif not levels.read(source) or levels.truths:
+        raise TypeError(
+            f"source must be a Framebuffer or a uint8 array of shape (height, width), not {type(source).__name__}"
+        )
+    elif palette is None and max_level < 255 and levels.highest() > max_level:
+        raise ValueError(f"source must hold levels from 0 to {max_level}, and holds {levels.highest()}")
+    if palette is not None:
+        table = pictures.palette_table(palette, max_level)
+        if levels.highest() >= len(table):
+            raise ValueError(f"palette must have a level for each of the source, and has none for {levels.highest()}")
+        levels.look_up(table)
+    elif of != max_level:
+        levels.scale(of, max_level)
+    return levels
+
+
+def move_levels(surface, dx, dy, c):
+    """Move what is in the window."""
+    scroll(surface, near_pixel("dx", dx), near_pixel("dy", dy), -1 if c is None else level(surface, c))
