@@ -101,6 +101,15 @@ def test_a_dash_may_be_of_any_length(package, length, ends):
 @example([(2, 4), (10, 4)], 3, [2, 2], "butt", False, (4, "center"))
 @example([(2, 4), (10, 4)], 3, [2, 1.5], "round", False, (4, "center"))
 @example([(2, 2), (10, 2), (10, 7)], 2, [3, 1], "square", True, (2, "corner"))
+# A reference point between a dash and its cap, which are rounded.
+@example(
+    [(4.82421875, -0.98828125), (4.75390625, -1.015625), (0.125, 14.17578125)],
+    2,
+    [273 / 256],
+    "round",
+    False,
+    (2, "center"),
+)
 def test_thick_dashes_are_the_stroke_cut_along_the_line(package, join, points, width, dash, cap, closed, samples):
     assume(all(a != b for a, b in pairwise(points)) and points[0] != points[-1])
     pieces, nearest_end = dashed_stroke(points, width, dash, join, cap, closed)

@@ -161,9 +161,7 @@ def arms(draw):
     st.sampled_from(["first", "second", "loop"]),
     samples,
 )
-@example(
-    ((2, -1), (3, 4)), (10, 10), 8, "miter", "butt", "loop", (2, "center")
-)  # just beyond the limit, nothing to cut
+@example(((2, -1), (3, 4)), (10, 10), 8, "miter", "butt", "loop", (2, "center"))  # just beyond, nothing to cut
 def test_strokes_from_far_away(package, reach, arms, corner, width, join, cap, place, samples):
     """A corner in the picture, whose arms reach far out of it; in floating point their beginnings will do."""
     (ax, ay), (bx, by) = ((corner[0] + reach * dx, corner[1] + reach * dy) for dx, dy in arms)
