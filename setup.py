@@ -4,6 +4,7 @@ import os
 import runpy
 import subprocess
 import sys
+from pathlib import Path
 
 from setuptools import Extension, setup
 from setuptools.command.build_ext import build_ext
@@ -24,6 +25,14 @@ def path(module, ending):
     return module.replace(".", "/") + ending
 
 
+def translated():
+    """Whether all that Cython writes is newer than all that it reads: a declaration concerns many modules."""
+    written = [Path(path(module, ".c")) for module in (LISTED["RUNTIME"], *LISTED["MODULES"])]
+    read = [Path("setup.py"), *Path("paneldraw").glob("**/*.py"), *Path("paneldraw").glob("**/*.pxd")]
+    newest = max(file.stat().st_mtime for file in read)
+    return all(file.exists() and file.stat().st_mtime > newest for file in written)
+
+
 class CythonThenC(build_ext):
     """All modules through one run of Cython, which has ended before the C compiler runs: a small Pi has 0.5 GB.
 
@@ -35,10 +44,11 @@ class CythonThenC(build_ext):
         self.parallel = self.parallel or min(os.cpu_count() or 1, 2)
 
     def build_extensions(self):
-        cython = [sys.executable, "-m", "cython", "-3"]
-        subprocess.run([*cython, "--generate-shared=" + path(LISTED["RUNTIME"], ".c")], check=True)
-        sources = [path(module, ".py") for module in LISTED["MODULES"]]
-        subprocess.run([*cython, "--shared=" + LISTED["RUNTIME"], "-X", ",".join(DIRECTIVES), *sources], check=True)
+        if not translated():
+            cython = [sys.executable, "-m", "cython", "-3"]
+            subprocess.run([*cython, "--generate-shared=" + path(LISTED["RUNTIME"], ".c")], check=True)
+            sources = [path(module, ".py") for module in LISTED["MODULES"]]
+            subprocess.run([*cython, "--shared=" + LISTED["RUNTIME"], "-X", ",".join(DIRECTIVES), *sources], check=True)
         for extension in self.extensions:
             extension.sources = [path(extension.name, ".c")]
         super().build_extensions()
