@@ -22,6 +22,9 @@ import paneldraw
 PROJECT = Path(__file__).parent.parent
 INFO = f"paneldraw-{version('paneldraw')}.dist-info"
 
+#: The environment of someone for whom Python finds no package but those that are installed.
+STRANGERS = {name: value for name, value in os.environ.items() if not name.startswith(("PYTHON", "PANELDRAW"))}
+
 #: Pictures of every kind of call, as the bytes of their levels.
 DRAW = """
 import hashlib, json
@@ -53,8 +56,7 @@ def without_compiler(tmp_path_factory):
         if (PROJECT / name).is_file():
             (folder / name).parent.mkdir(parents=True, exist_ok=True)
             shutil.copyfile(PROJECT / name, folder / name)
-    environment = {name: value for name, value in os.environ.items() if not name.startswith(("PYTHON", "PANELDRAW"))}
-    environment["CC"] = "/bin/false"
+    environment = STRANGERS | {"CC": "/bin/false"}
 
     def run(command):
         return subprocess.run(
@@ -195,7 +197,7 @@ def test_the_command_that_info_gives_compiles_what_pip_kept_interpreted(without_
     assert list(tmp_path.glob("paneldraw-*.tar.gz"))
 
     def run(command, **names):
-        environment = os.environ | {"PIP_FIND_LINKS": str(tmp_path), "PIP_CACHE_DIR": str(tmp_path / "cache")} | names
+        environment = STRANGERS | {"PIP_FIND_LINKS": str(tmp_path), "PIP_CACHE_DIR": str(tmp_path / "cache")} | names
         done = subprocess.run(command, cwd=tmp_path, shell=True, env=environment, capture_output=True, text=True)
         assert done.returncode == 0, done.stdout + done.stderr
         return done.stdout
