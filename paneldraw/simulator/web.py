@@ -164,7 +164,7 @@ class Server:
         return socket
 
     def _picture(self) -> Picture:
-        """The last frame; frames are whole, while the chip itself may be in the middle of a write."""
+        """The last frame: a picture between two calls, while the chip itself may be in the middle of a write."""
         try:
             return self._chip.frames[-1].pixels
         except IndexError:

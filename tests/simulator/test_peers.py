@@ -235,3 +235,63 @@ def test_a_driver_that_chains_control_bytes() -> None:
         bus.i2c_rdwr(smbus2.i2c_msg.write(ADDRESS, bytes([0x80, 0xB0 | page, 0x80, 0x00, 0x80, 0x10]) + chained))
     assert np.array_equal(chip.pixels, picture)
     assert chip.violations == []
+
+
+# The order of commands of other drivers, as data: name of the chip, its start, the commands before the data of a page
+# or of a picture, and what is merely remarked. MicroPython: drivers ssd1306.py (micropython-lib) and sh1106.py
+# (robert-hh/SH1106), the latter with rotate=180; Linux: drivers/video/fbdev/ssd1307fb.c and
+# drivers/gpu/drm/solomon/ssd130x.c with the defaults of their tables, com-invdir and page-offset 0.
+
+WINDOW = "21 00 7F 22 00 07"
+STARTS = {
+    "MicroPython ssd1306": (
+        "SSD1306",
+        "AE 20 00 40 A1 A8 3F C8 D3 00 DA 12 D5 80 D9 F1 DB 30 81 FF A4 A6 AD 30 8D 14 AF",
+        WINDOW,
+        1,
+    ),
+    "MicroPython sh1106": ("SH1106", "AF A1 C8", "B{:X} 02 10", 0),
+    "Linux ssd1307fb": (
+        "SSD1306",
+        "81 7F A1 C8 A8 3F D3 00 D5 80 D9 22 DA 12 DB 20 8D 14 20 00 AF",
+        WINDOW,
+        0,
+    ),
+    "Linux ssd130x": (
+        "SSD1306",
+        "81 7F A1 C8 A8 3F D3 00 D5 80 D9 22 DA 12 DB 20 8D 14 20 00 AF",
+        WINDOW,
+        0,
+    ),
+    "Linux ssd130x, sh1106": (
+        "SH1106",
+        "81 7F A1 C8 A8 3F D3 00 D5 50 D9 22 DA 12 DB 40 8D 10 20 02 AF",
+        "B{:X} 02 10",
+        2,
+    ),
+    "Linux ssd130x, ssd1309": (
+        "SSD1309",
+        "81 7F A1 C8 A8 3F D3 00 D5 A0 D9 22 DA 12 DB 34 8D 10 20 00 AF",
+        WINDOW,
+        1,
+    ),
+}
+
+
+@pytest.mark.parametrize("name", STARTS)
+def test_starts_of_other_drivers_light_the_chip_upright_without_a_violation(name: str) -> None:
+    chip_name, start, before, remarks = STARTS[name]
+    chip = getattr(simulator, chip_name)()
+    bus, picture = simulator.I2CBus({ADDRESS: chip}, timer=None), random_picture(128, 64, 1)
+    for command in bytes.fromhex(start):
+        bus.write_byte_data(ADDRESS, 0x80, command)
+    pages = pack(picture)
+    for number, rows in enumerate([pages] if before == WINDOW else pages):
+        for command in bytes.fromhex(before.format(number)):
+            bus.write_byte_data(ADDRESS, 0x80, command)
+        bus.i2c_rdwr(smbus2.i2c_msg.write(ADDRESS, b"\x40" + rows.tobytes()))
+    assert np.array_equal(chip.pixels, picture)
+    assert chip.violations == []
+    assert len(chip.remarks) == remarks
+    assert np.array_equal(chip.frames[-1].pixels, picture)
+    assert len(chip.frames) <= 3  # noise, noise mirrored, the picture

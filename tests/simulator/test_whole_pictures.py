@@ -16,7 +16,7 @@ from PIL import Image
 
 from paneldraw import Panel, controllers, simulator
 from paneldraw.simulator.frames import Progress
-from paneldraw.transports import I2CTransport
+from paneldraw.transports import I2CTransport, SPITransport
 
 from .helpers import commands, init, pack, random_picture
 from .test_peers import BusioI2C, draw
@@ -29,7 +29,7 @@ def bench(chip: simulator.SSD1306 | simulator.SH1106) -> simulator.I2CBus:
     return simulator.I2CBus({0x3C: chip}, timer=None)
 
 
-def shown(chip: simulator.SSD1306 | simulator.SH1106) -> list[Picture]:
+def shown(chip: Any) -> list[Picture]:
     return [frame.pixels for frame in chip.frames]
 
 
@@ -53,6 +53,46 @@ def test_luma(name: str, managed: bool, monkeypatch: pytest.MonkeyPatch) -> None
         device.display(Image.fromarray(picture * 255).convert("1"))
     assert same(shown(chip), PICTURES)
     assert sum(frame.wire_bytes for frame in chip.frames) == bus.bytes
+
+
+@pytest.mark.filterwarnings("ignore:Image.Image.getdata is deprecated")
+@pytest.mark.parametrize("name", ["ssd1306", "sh1106", "ssd1322"])
+def test_luma_on_spi(name: str) -> None:
+    from luma.core.interface.serial import spi
+    from luma.oled import device as devices
+
+    chip = getattr(simulator, name.upper())()
+    bus = simulator.SPIBus(chip, timer=None)
+    device = getattr(devices, name)(spi(spi=bus.spi, gpio=bus.gpio))
+    device.persist = True
+    pictures = [random_picture(chip.width, chip.height, seed) * chip.max_level for seed in range(3)]
+    for picture in pictures:
+        device.display(Image.fromarray(picture // chip.max_level * 255).convert(device.mode))
+    assert same(shown(chip), pictures)
+
+
+def test_ours_on_spi_whole_pictures() -> None:
+    chip = simulator.SSD1306()
+    bus = simulator.SPIBus(chip, timer=None)
+    panel = Panel(controllers.SSD1306(128, 64), SPITransport(spi=bus.spi, pins=bus.pins))
+    for picture in PICTURES:
+        panel.show(picture)
+    assert same(shown(chip), PICTURES)
+
+
+def test_ours_on_spi_with_a_pause_in_between() -> None:
+    """There a plan is several calls; what tells small ones apart that lie in different places is time."""
+    chip = simulator.SSD1306()
+    bus = simulator.SPIBus(chip, timer=None)
+    panel = Panel(controllers.SSD1306(128, 64), SPITransport(spi=bus.spi, pins=bus.pins))
+    fb = panel.framebuffer()
+    expected = []
+    for x, y in ((3, 5), (100, 60), (64, 20), (64, 60)):
+        fb.pixel(x, y, 1)
+        panel.show(fb)
+        bus.idle(0.03)
+        expected.append(fb.pixels.copy())
+    assert same(shown(chip), expected)
 
 
 def test_adafruit() -> None:
