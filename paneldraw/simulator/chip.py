@@ -43,8 +43,8 @@ class Chip(ABC):
         What is merely not in the sheet, or a relative's command that the chip lets pass, in the same way.
     registers : Registers
         All other state, by name.
-    tick : callable or None
-        Makes the bus tell the chip what time it is; set by the bus.
+    hold : callable or None
+        Does something while the bus stands still, having told the chip what time it is; set by the bus.
     """
 
     buses: ClassVar[tuple[str, ...]] = ("i2c", "spi")
@@ -60,7 +60,7 @@ class Chip(ABC):
         self, width: int, height: int, *, history: int | None, seed: int | None, cells: tuple[int, ...] = (0,)
     ) -> None:
         self.width, self.height = width, height
-        self.tick: Callable[[], None] | None = None
+        self.hold: Callable[[Callable[[], object]], None] | None = None
         self._frames: deque[Frame] = deque(maxlen=history)
         self.violations: list[str] = []
         self.remarks: list[str] = []
@@ -173,6 +173,13 @@ class Chip(ABC):
             self._unframed_bytes = 0
         self._seen = pixels
 
+    def _at_rest(self, look: Callable[[], object]) -> None:
+        """Look at the chip while nobody writes to it: who looks may be another thread than who draws."""
+        if self.hold:
+            self.hold(look)
+        else:
+            look()
+
     def _present(self) -> Picture:
         if self._picture is None:
             self._picture = self._look()
@@ -184,16 +191,15 @@ class Chip(ABC):
     @property
     def pixels(self) -> Picture:
         """What an eye sees: levels from 0 to `max_level`, uint8, shape (height, width), read-only."""
-        if self._next_step is not None and self.tick:
-            self.tick()
+        if self._picture is None or self._next_step is not None:
+            self._at_rest(self._present)
         return self._present()
 
     @property
     def frames(self) -> deque[Frame]:
         """The whole pictures that were shown."""
-        if self._next_step is not None and self.tick:
-            self.tick()
-        self._end_picture()
+        if self._growing or self._next_step is not None:
+            self._at_rest(self._end_picture)
         return self._frames
 
     @property

@@ -68,13 +68,19 @@ class Wire:
         return self._now
 
     def _pass_time(self) -> None:
-        """Tell the chips what time it is, before a call and when somebody looks at one that moves by itself."""
+        """Tell the chips what time it is."""
         with self._lock:
             now = max(self._now, self._timer() - self._started) if self._timer else self._now
             for chip in self._chips():
                 if isinstance(chip, Chip):
-                    chip.tick = self._pass_time
+                    chip.hold = self._hold
                     chip.wait(now)
+
+    def _hold(self, look: Callable[[], object]) -> None:
+        """Stand still while somebody looks at a chip."""
+        with self._lock:
+            self._pass_time()
+            look()
 
     def _chips(self) -> Iterable[object]:
         """What sits on the bus."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+import threading
 from collections.abc import Callable
 from typing import Any
 
@@ -214,3 +215,27 @@ def test_chips_whose_data_carries_its_address_end_a_picture_where_a_place_repeat
         progress.draw_at(row)
         numbers.append(progress.end_call(seconds))
     assert numbers == [1, 1, 1, 2, 2, 3, 3]
+
+
+def test_who_watches_from_another_thread_disturbs_no_frame() -> None:
+    chip = simulator.SSD1306()
+    bus = bench(chip)
+    commands(chip, init(128, 64, 2).hex())
+    bus.write_quick(0x3C)
+    chip.frames.clear()
+    watching, seen = threading.Event(), []
+
+    def watch() -> None:
+        while not watching.is_set():
+            seen.append(len(chip.frames) + int(chip.pixels.sum()))
+
+    watcher = threading.Thread(target=watch)
+    watcher.start()
+    try:
+        for picture in PICTURES:
+            send_pages_from_below(bus, picture)
+    finally:
+        watching.set()
+        watcher.join()
+    assert seen
+    assert same(shown(chip), PICTURES)
