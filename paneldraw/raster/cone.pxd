@@ -1,6 +1,8 @@
 cdef enum:
     FILTER_FULL = 1024
     FILTER_SHIFT = 10
+    # So many sub-scanlines are weighed as one where edges are steep.
+    BLOCK = 5
 
 cdef class Filter:
     cdef readonly double radius
@@ -13,6 +15,7 @@ cdef class Filter:
     # The sub-pixels along each side of a pixel, the sub-scanlines that cross the circle, and half of the pixels that a
     # span's end changes.
     cdef readonly int n, lines, reach
+    # The weights of a span's end, by sub-scanline and by block: see `_weights`.
     cdef object kept_weights
     cdef int *weights
 

@@ -20,7 +20,7 @@ from paneldraw._signatures import SignatureOfInit
 TYPE_CHECKING = False
 
 if not cython.compiled:
-    FILTER_FULL, FILTER_SHIFT = 1024, 10
+    FILTER_FULL, FILTER_SHIFT, BLOCK = 1024, 10, 5
 
 # In a Profile, the entries a radius.
 PROFILE_STEPS = 256
@@ -48,8 +48,8 @@ class ConeFilter:
         radius, cut off at the rim.
     resolution : int, default 32
         Steps a radius of the tables, 8 to 256. From 12 on a straight line's coverage is within 2/255 of the filter's
-        volume above it. Other shapes are made of sub-scanlines, five for four steps but no more than 128 a pixel, and
-        from 24 on are within 5/255, parts thinner than half a pixel within 10/255; at 8, within 11 and 31.
+        volume above it. Other shapes are made of sub-scanlines, five for four steps or some more, at most 120 a pixel,
+        and from 24 on are within 5/255, parts thinner than half a pixel within 10/255; at 8, within 11 and 31.
 
     Raises
     ------
@@ -132,9 +132,9 @@ class Filter:
         self.resolution = resolution
         self.steps = 2 * resolution
         self.table = None
-        # An even number of sub-pixels: the middle of a pixel lies between two sub-scanlines.
-        self.n = min(2 * int(ceil(0.625 * resolution / self.radius)), 128)
-        self.lines = 2 * int(ceil(self.radius * self.n))
+        # An even number of blocks: the middle of a pixel lies between two of them.
+        self.n = 2 * BLOCK * min(int(ceil(0.125 * resolution / self.radius)), 12)
+        self.lines = 2 * BLOCK * int(ceil(self.radius * self.n / BLOCK))
         self.reach = int(ceil(self.radius + 0.5))
 
     def prepare(self):
@@ -147,6 +147,8 @@ class Filter:
         volumes.setflags(write=False)
         extent = self.lines / (2 * self.n * self.radius)
         weights = _weights(_volumes(self.name, self.lines, extent), self.n, self.reach)
+        blocks = weights.reshape(-1, BLOCK, *weights.shape[1:]).sum(1)
+        weights = np.concatenate([weights, blocks])
         if cython.compiled:
             self.kept_weights = bytearray(weights.astype(np.intc).tobytes())
             self.weights = cython.cast(cython.p_int, _bytes(self.kept_weights))

@@ -14,7 +14,7 @@ with whole numbers whether a point is inside.
 import numbers
 
 import cython
-from cython.cimports.paneldraw.raster.cone import FILTER_FULL, FILTER_SHIFT, ConeFilter
+from cython.cimports.paneldraw.raster.cone import BLOCK, FILTER_FULL, FILTER_SHIFT, ConeFilter
 from cython.cimports.paneldraw.raster.paint import inverse_of, paint_coverage
 from cython.cimports.paneldraw.raster.surface import Surface
 
@@ -22,6 +22,17 @@ from paneldraw._signatures import SignatureOfInit
 
 # As typing has it, without an import that costs as much as the rest.
 TYPE_CHECKING = False
+
+# The fraction's bits of a place between a window's sides; places themselves are less than 2**27.
+_FIXED = cython.declare(cython.int, 36)
+
+if not cython.compiled:
+    FRACTION, STEEP = 58, 8
+    Edge = type("Edge", (), {})
+
+    def place(edge, lines):
+        """The first sub-pixel at or right of an edge, so many sub-scanlines below the present one."""
+        return edge.bound + lines * edge.step + ((edge.fraction + lines * edge.fraction_step) >> FRACTION)
 
 
 @cython.cclass
@@ -115,6 +126,7 @@ class Coverage:
         self.n_inverse = 0
         if not cython.compiled:
             self.touched_first, self.touched_end = [0] * 16, [0] * 16
+            self.bases, self.tables = [0] * 16, [0] * 16
 
     def begin(self, antialias):
         """Begin a shape: aliased for None, counted for a Supersample, weighed for a ConeFilter."""
@@ -131,6 +143,7 @@ class Coverage:
             self.middle = 256 * (self.n - 1)
             self.lines = self.filter.lines
             self.reach = self.filter.reach
+            self.block = BLOCK
             self.shift = FILTER_SHIFT
             self.full = FILTER_FULL
         else:
@@ -139,6 +152,7 @@ class Coverage:
             self.middle = 256 * (self.n if antialias is not None and samples.corner else self.n - 1)
             self.lines = self.n
             self.reach = 1
+            self.block = self.n
             self.shift = 0
             self.full = self.n * self.n
         self.partial = self.n > 1
@@ -213,7 +227,8 @@ class Coverage:
         if self.filter is None:
             self._count(ends, count)
         else:
-            self._weigh(h, ends, count)
+            self._look_up(h, 1)
+            self._weigh(ends, count)
 
     def row_of_spans(self, y, ends, count):
         """Take all spans of a row of pixels at once, and paint it; the spans are counted."""
@@ -224,6 +239,22 @@ class Coverage:
             self.limit = self.first
         else:
             self.spans(y, ends, count)
+
+    def block_of_spans(self, h, ends, count):
+        """Take spans of the block of sub-scanlines from `h` on, given those of its middle one; they are weighed."""
+        if h >= self.limit:
+            self._advance(h)
+        self._look_up(h, self.block)
+        self._weigh(ends, count)
+
+    def block_of_edges(self, h, edges, count):
+        """Take the spans of the block of sub-scanlines from `h` on that lie between straight edges, two by two."""
+        if h >= self.limit:
+            self._advance(h)
+        if self.filter is None:
+            self._count_edges(edges, count)
+        else:
+            self._weigh_edges(h, edges, count)
 
     def _count(self, ends, count):
         """Add spans of the present row of pixels: a sub-pixel is 1 in its own pixel."""
@@ -257,56 +288,142 @@ class Coverage:
         self.touched_end[self.slot] = end
         self.dirty = self.dirty or first < end
 
-    def _weigh(self, h, ends, count):
-        """Add spans to all rows of pixels that are reached: a sub-pixel is the filter's volume above it."""
+    def _count_edges(self, edges, count):
+        """Add the spans between edges that cross the present row of pixels."""
+        i: cython.int
         k: cython.int
-        r: cython.int
-        _: cython.int
-        rows: cython.int = 0
-        low: cython.longlong = self.low
-        high: cython.longlong = self.high
-        inverse: cython.longlong = self.n_inverse
         n: cython.int = self.n
-        width: cython.int = 2 * self.reach
+        inverse: cython.longlong = self.n_inverse
+        low: cython.longlong = self.low
+        wide: cython.longlong = self.high - low
+        base: cython.int = self.slot * self.columns
+        first: cython.int = self.touched_first[self.slot]
+        end: cython.int = self.touched_end[self.slot]
+        changes: cython.p_int = self.changes
+        sign: cython.int = -1
+        for i in range(count):
+            sign = -sign
+            edge: cython.pointer[Edge] = edges[i]
+            top: cython.longlong = edge.bound - low
+            bottom: cython.longlong = place(edge, n - 1) - low
+            # Where the window cuts none, in one fixed-point number: its error is less than what `Edge` allows.
+            cut: cython.bint = min(top, bottom) < 0 or max(top, bottom) > wide
+            at: cython.longlong = 0 if cut else (top << _FIXED) + (edge.fraction >> (FRACTION - _FIXED))
+            step: cython.longlong = 0 if cut else (edge.step << _FIXED) + (edge.fraction_step >> (FRACTION - _FIXED))
+            left: cython.int = 0
+            for k in range(n):
+                x: cython.longlong = min(max(place(edge, k) - low, 0), wide) if cut else at >> _FIXED
+                left = cython.cast(cython.int, (x * inverse) >> 32)
+                part: cython.int = sign * (cython.cast(cython.int, x) - left * n)
+                changes[base + left] += sign * n - part
+                changes[base + left + 1] += part
+                at += step
+            top = (min(max(top, 0), wide) * inverse) >> 32
+            first = min(first, left, cython.cast(cython.int, top))
+            end = max(end, left + 2, cython.cast(cython.int, top) + 2)
+        self.touched_first[self.slot] = first
+        self.touched_end[self.slot] = end
+        self.dirty = self.dirty or first < end
+
+    def _weigh_edges(self, h, edges, count):
+        """Add the spans between edges to all rows of pixels that the block reaches."""
+        i: cython.int
+        k: cython.int
+        edge: cython.pointer[Edge]
+        at: cython.longlong
+        low: cython.longlong = 1 << 30
+        high: cython.longlong = -1
+        flat: cython.bint = False
+        self._look_up(h, self.block)
+        for i in range(count):
+            edge = edges[i]
+            if -STEEP <= edge.step < STEEP:
+                at = self._weigh_end(place(edge, self.block // 2), i % 2 == 0)
+                low = min(low, at)
+                high = max(high, at)
+            else:
+                flat = True
+        if flat:
+            for k in range(self.block):
+                self._look_up(h + k, 1)
+                for i in range(count):
+                    edge = edges[i]
+                    if not -STEEP <= edge.step < STEEP:
+                        at = self._weigh_end(place(edge, k), i % 2 == 0)
+                        low = min(low, at)
+                        high = max(high, at)
+        self._touch(low, high)
+
+    def _look_up(self, h, lines):
+        """Find the rows of pixels that sub-scanline `h`, or a block of `lines` from it on, reaches; and its weights."""
+        rows: cython.int = 0
+        n: cython.int = self.n
+        entries: cython.int = 2 * self.reach * n
         slot: cython.int = self.slot
         index: cython.int = cython.cast(cython.int, h - self.row * n + self.lead)
-        # Of each row, where its changes begin, and the weights of the sub-scanline in it.
-        bases: cython.Py_ssize_t[16]
-        tables: cython.Py_ssize_t[16]
-        if not cython.compiled:
-            bases, tables = [0] * 16, [0] * 16
+        last: cython.int = self.lines - 1
+        start: cython.int = 0
+        # The tables of blocks lie behind those of sub-scanlines.
+        if lines > 1:
+            start = self.lines // 2 * entries
+            index //= lines
+            n //= lines
+            last = self.lines // lines - 1
         while index >= 0 and rows < self.rows and self.row + rows < self.surface.bottom:
             # The filter is the same above and below its middle.
-            tables[rows] = min(index, self.lines - 1 - index) * n * width
-            bases[rows] = slot * self.columns
+            self.tables[rows] = start + min(index, last - index) * entries
+            self.bases[rows] = slot * self.columns
             slot = slot + 1 if slot + 1 < self.rows else 0
             index -= n
             rows += 1
+        self.reached = rows
+
+    def _weigh(self, ends, count):
+        """Add spans to all rows of pixels that are reached: a sub-pixel is the filter's volume above it."""
+        k: cython.int
+        low: cython.longlong = 1 << 30
+        high: cython.longlong = -1
+        for k in range(count):
+            a: cython.longlong = max(ends[2 * k], self.low)
+            b: cython.longlong = min(ends[2 * k + 1], self.high)
+            if a < b:
+                low = min(low, self._weigh_end(a, True))
+                high = max(high, self._weigh_end(b, False))
+        self._touch(low, high)
+
+    def _weigh_end(self, x, opens):
+        """Add what a span that begins or ends at sub-pixel `x` changes; return the first place that it does at."""
+        r: cython.int
+        n: cython.int = self.n
+        width: cython.int = 2 * self.reach
+        x = min(max(x, self.low), self.high) - self.low
+        left: cython.longlong = (x * self.n_inverse) >> 32
+        begin: cython.Py_ssize_t = cython.cast(cython.Py_ssize_t, (x - left * n) * width)
+        at: cython.Py_ssize_t = cython.cast(cython.Py_ssize_t, left)
         changes: cython.p_int = self.changes
         weights: cython.p_int = self.filter.weights
-        first: cython.int = 1 << 30
-        last: cython.int = -1
-        for k in range(count):
-            a: cython.longlong = max(ends[2 * k], low) - low
-            b: cython.longlong = min(ends[2 * k + 1], high) - low
-            if a >= b:
-                continue
-            left: cython.Py_ssize_t = (a * inverse) >> 32
-            right: cython.Py_ssize_t = (b * inverse) >> 32
-            begin: cython.Py_ssize_t = (a - left * n) * width
-            end: cython.Py_ssize_t = (b - right * n) * width
-            first = min(first, left)
-            last = max(last, right)
-            for r in range(rows):
-                _add(changes, bases[r] + left, weights, tables[r] + begin, width)
-                _subtract(changes, bases[r] + right, weights, tables[r] + end, width)
-        if first <= last:
-            self.dirty = True
-            slot = self.slot
-            for _ in range(rows):
-                self.touched_first[slot] = min(self.touched_first[slot], first)
-                self.touched_end[slot] = max(self.touched_end[slot], last + width)
-                slot = slot + 1 if slot + 1 < self.rows else 0
+        sign: cython.int = 0 if opens else -1
+        if width == 4:
+            for r in range(self.reached):
+                _add_four(changes, self.bases[r] + at, weights, self.tables[r] + begin, sign)
+        else:
+            for r in range(self.reached):
+                _add(changes, self.bases[r] + at, weights, self.tables[r] + begin, width, sign)
+        return left
+
+    def _touch(self, low, high):
+        """Remember that ends changed the rows that are reached from place `low` to place `high` on."""
+        slot: cython.int = self.slot
+        _: cython.int
+        if low > high:
+            return
+        first: cython.int = cython.cast(cython.int, low)
+        end: cython.int = cython.cast(cython.int, high) + 2 * self.reach
+        self.dirty = True
+        for _ in range(self.reached):
+            self.touched_first[slot] = min(self.touched_first[slot], first)
+            self.touched_end[slot] = max(self.touched_end[slot], end)
+            slot = slot + 1 if slot + 1 < self.rows else 0
 
     def _advance(self, h):
         """Paint the rows that sub-scanline `h` and those below it do not reach."""
@@ -350,54 +467,36 @@ class Coverage:
 @cython.nogil
 @cython.exceptval(check=False)
 def _add(
-    changes: cython.p_int, at: cython.Py_ssize_t, weights: cython.p_int, of: cython.Py_ssize_t, width: cython.int
+    changes: cython.p_int,
+    at: cython.Py_ssize_t,
+    weights: cython.p_int,
+    of: cython.Py_ssize_t,
+    width: cython.int,
+    sign: cython.int,
 ) -> cython.void:
-    """Add the weights of a span's beginning; an even number, and so two at a time."""
+    """Add weights to changes, or for the sign -1 take them away."""
     i: cython.int
-    w: cython.int
-    x: cython.int
-    if width == 4:
-        # In one go: discs take a third less time.
-        w = weights[of]
-        x = weights[of + 1]
-        y: cython.int = weights[of + 2]
-        z: cython.int = weights[of + 3]
-        changes[at] += w
-        changes[at + 1] += x
-        changes[at + 2] += y
-        changes[at + 3] += z
-        return
-    for i in range(0, width, 2):
-        w = weights[of + i]
-        x = weights[of + i + 1]
-        changes[at + i] += w
-        changes[at + i + 1] += x
+    for i in range(width):
+        changes[at + i] += (weights[of + i] ^ sign) - sign
 
 
 @cython.cfunc
 @cython.inline
 @cython.nogil
 @cython.exceptval(check=False)
-def _subtract(
-    changes: cython.p_int, at: cython.Py_ssize_t, weights: cython.p_int, of: cython.Py_ssize_t, width: cython.int
+def _add_four(
+    changes: cython.p_int, at: cython.Py_ssize_t, weights: cython.p_int, of: cython.Py_ssize_t, sign: cython.int
 ) -> cython.void:
-    """Take away the weights of a span's end."""
-    i: cython.int
-    w: cython.int
-    x: cython.int
-    if width == 4:
-        # In one go: discs take a third less time.
-        w = weights[of]
-        x = weights[of + 1]
-        y: cython.int = weights[of + 2]
-        z: cython.int = weights[of + 3]
-        changes[at] -= w
-        changes[at + 1] -= x
-        changes[at + 2] -= y
-        changes[at + 3] -= z
-        return
-    for i in range(0, width, 2):
-        w = weights[of + i]
-        x = weights[of + i + 1]
-        changes[at + i] -= w
-        changes[at + i + 1] -= x
+    """The same for four, which the processor adds in one go."""
+    w: cython.int = (weights[of] ^ sign) - sign
+    x: cython.int = (weights[of + 1] ^ sign) - sign
+    y: cython.int = (weights[of + 2] ^ sign) - sign
+    z: cython.int = (weights[of + 3] ^ sign) - sign
+    w += changes[at]
+    x += changes[at + 1]
+    y += changes[at + 2]
+    z += changes[at + 3]
+    changes[at] = w
+    changes[at + 1] = x
+    changes[at + 2] = y
+    changes[at + 3] = z

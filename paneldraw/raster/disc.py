@@ -7,6 +7,7 @@ is decided in floating point: for points within 1/256 of a pixel of it, the one 
 
 import cython
 from cython.cimports.libc.math import sqrt
+from cython.cimports.paneldraw.raster.coverage import STEEP
 from cython.cimports.paneldraw.raster.floors import floored
 from cython.cimports.paneldraw.raster.thick_line import half_plane
 
@@ -19,7 +20,7 @@ _SQUARE = cython.declare(cython.int, 1)
 _ROUND = cython.declare(cython.int, 2)
 
 if not cython.compiled:
-    Round = type("Round", (), {})
+    Round, Edges = type("Round", (), {}), type("Edges", (), {})
 
 
 def disc(coverage, shape, width, part):
@@ -33,39 +34,139 @@ def ring(coverage, shape, width, part):
 
 
 def _sweep(coverage, shape, width, hollow, part):
-    """Find the spans of each sub-scanline: what is across the outer edge, less what is across the inner one."""
+    """Find the curve's two edges, and the spans between them."""
+    edges: Edges
     outer: Round
     inner: Round
     middle: Round
-    ends: cython.longlong[32]
     if not cython.compiled:
-        outer, inner, middle, ends = Round(), Round(), Round(), [0] * 32
-    to_outer: cython.pointer[Round] = cython.address(outer) if cython.compiled else outer
-    to_inner: cython.pointer[Round] = cython.address(inner) if cython.compiled else inner
-    to_middle: cython.pointer[Round] = cython.address(middle) if cython.compiled else middle
+        edges, outer, inner, middle = Edges(), Round(), Round(), Round()
+    edges.outer = cython.address(outer) if cython.compiled else outer
+    edges.inner = cython.address(inner) if cython.compiled else inner
+    edges.middle = cython.address(middle) if cython.compiled else middle
     n: cython.longlong = coverage.n
-    half: cython.longlong = n * width
-    _grow(to_outer, shape, n, half)
-    _grow(to_middle, shape, n, 0)
-    hollow = hollow and _grow(to_inner, shape, n, -half)
+    edges.half = n * width
+    _grow(edges.outer, shape, n, edges.half)
+    _grow(edges.middle, shape, n, 0)
+    edges.hollow = hollow and _grow(edges.inner, shape, n, -edges.half)
     # A square cap may reach out of the ring.
-    beyond: cython.longlong = half if part is not None and part.cap == _SQUARE else 0
+    beyond: cython.longlong = edges.half if part is not None and part.cap == _SQUARE else 0
     first: cython.longlong = (outer.top - outer.b - beyond + coverage.middle + 511) >> 9
     last: cython.longlong = (outer.bottom + outer.b + beyond + coverage.middle + 511) >> 9
+    first = max(first, coverage.first)
+    last = min(last, coverage.end)
+    to: cython.pointer[Edges] = cython.address(edges) if cython.compiled else edges
+    if coverage.filter is not None:
+        _blocks(coverage, to, part, first, last)
+    elif part is None and coverage.partial:
+        _rows(coverage, to, first, last)
+    else:
+        _lines(coverage, to, part, first, last)
+
+
+def _lines(coverage, edges, part, first, last):
+    """Take one sub-scanline after the other."""
+    h: cython.longlong
+    ends: cython.longlong[32]
+    if not cython.compiled:
+        ends = [0] * 32
+    for h in range(first, last):
+        coverage.spans(h, ends, _spans(coverage, edges, part, h, ends))
+
+
+def _rows(coverage, edges, first, last):
+    """Take a row of pixels in one call, of a whole disc or ring: half as many instructions."""
     h: cython.longlong
     i: cython.int
-    for h in range(max(first, coverage.first), min(last, coverage.end)):
-        y: cython.longlong = 512 * h - coverage.middle
-        count: cython.int = _across(to_outer, y, ends, 0)
-        if count and hollow and _across(to_inner, y, ends, 2):
-            # From the outer edge to the inner one, and from the inner to the outer.
-            ends[1], ends[2], ends[3] = min(ends[2], ends[1]), max(ends[3], ends[0]), ends[1]
-            count = 2
-        if part is not None:
-            count = part.cut(ends, count, y, to_middle, half, n)
+    ends: cython.longlong[64]
+    if not cython.compiled:
+        ends = [0] * 64
+    n: cython.longlong = coverage.n
+    while first < last:
+        y: cython.longlong = first // n
+        end: cython.longlong = min(last, (y + 1) * n)
+        count: cython.int = 0
+        for h in range(first, end):
+            count += _between(edges, 512 * h - coverage.middle, ends, 2 * count)
         for i in range(2 * count):
             ends[i] = (ends[i] + coverage.middle + 511) >> 9
-        coverage.spans(h, ends, count)
+        coverage.row_of_spans(y, ends, count)
+        first = end
+
+
+def _blocks(coverage, edges, part, first, last):
+    """Take a block of sub-scanlines as one where their ends lie on straight and steep lines."""
+    # The ends in the first sub-scanline of a block, of the next block, and in the middle.
+    early: cython.longlong[32]
+    late: cython.longlong[32]
+    middle: cython.longlong[32]
+    if not cython.compiled:
+        early, late, middle = [0] * 32, [0] * 32, [0] * 32
+    above: cython.p_longlong = early
+    below: cython.p_longlong = late
+    ends: cython.p_longlong = middle
+    block: cython.int = coverage.block
+    h: cython.longlong
+    begin: cython.longlong = first - (first - coverage.first) % block
+    many: cython.int = -1
+    while begin < last:
+        count: cython.int = -1
+        if begin >= first and begin + block < last:
+            if many < 0:
+                many = _spans(coverage, edges, part, begin, above)
+            count = _spans(coverage, edges, part, begin + block, below)
+            if count == many and (
+                _spans(coverage, edges, part, begin + block // 2, ends) == count
+                and _are_steep(above, ends, below, count, block)
+            ):
+                coverage.block_of_spans(begin, ends, count)
+                above, below = below, above
+                begin += block
+                continue
+        for h in range(max(begin, first), min(begin + block, last)):
+            coverage.spans(h, ends, _spans(coverage, edges, part, h, ends))
+        above, below = below, above
+        many = count
+        begin += block
+
+
+def _are_steep(above, ends, below, count, block):
+    """Whether ends move straight, and not far, from the first sub-scanline of a block by its middle to the next one."""
+    i: cython.int
+    for i in range(2 * count):
+        if abs(below[i] - above[i]) > STEEP * block:
+            return False
+        # The middle is as many halves from the one as from the other, less one.
+        if abs((block + 1) * above[i] + (block - 1) * below[i] - 2 * block * ends[i]) > 2 * block:
+            return False
+    return True
+
+
+def _spans(coverage, edges, part, h, ends):
+    """Write the ends of the spans of a sub-scanline, in sub-pixels; return how many spans there are."""
+    i: cython.int
+    y: cython.longlong = 512 * h - coverage.middle
+    count: cython.int = _between(edges, y, ends, 0)
+    if part is not None:
+        count = part.cut(ends, count, y, edges.middle, edges.half, coverage.n)
+    for i in range(2 * count):
+        ends[i] = (ends[i] + coverage.middle + 511) >> 9
+    return count
+
+
+def _between(edges, y, ends, at):
+    """Write the ends of what is between the edges at height `y` from place `at` on; return how many spans that is."""
+    if not _across(edges.outer, y, ends, at):
+        return 0
+    if not edges.hollow or not _across(edges.inner, y, ends, at + 2):
+        return 1
+    # From the outer edge to the inner one, and from the inner to the outer.
+    left: cython.longlong = ends[at + 2]
+    right: cython.longlong = ends[at + 3]
+    ends[at + 3] = ends[at + 1]
+    ends[at + 2] = max(right, ends[at])
+    ends[at + 1] = min(left, ends[at + 1])
+    return 2
 
 
 def _grow(grown, shape, n, outward):
@@ -95,7 +196,8 @@ def _across(shape, y, ends, at):
     if away > 0:
         height: cython.double = shape.b
         share: cython.double = away
-        reach = reach * sqrt((height - share) * (height + share)) / height
+        root: cython.double = sqrt((height - share) * (height + share))
+        reach = root if shape.a == shape.b else reach * root / height
     whole: cython.longlong = floored(reach)
     ends[at] = shape.left - whole
     ends[at + 1] = shape.right + whole + (reach > whole)

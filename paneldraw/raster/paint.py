@@ -92,6 +92,8 @@ def paint_coverage(surface, y, x, changes, first, count, shift, full, inverse):
             elif covered > 0 and top > 1:
                 pixels[at] = meet(pixels[at], level, covered, full, inverse, op, top)
             continue
+        while i + 4 <= end and (changes[i] | changes[i + 1] | changes[i + 2] | changes[i + 3]) == 0:
+            i += 4
         while i < end and changes[i] == 0:
             i += 1
         if covered >= full or (top == 1 and 2 * covered >= full):

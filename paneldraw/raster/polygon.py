@@ -5,10 +5,8 @@ or, on a horizontal edge, below: polygons that share an edge share no point and 
 """
 
 import cython
+from cython.cimports.paneldraw.raster.coverage import FRACTION, Edge, place
 from cython.cimports.paneldraw.raster.floors import floored
-
-if not cython.compiled:
-    Edge = type("Edge", (), {})
 
 
 def polygon(coverage, points, ends, contours, nonzero):
@@ -20,7 +18,8 @@ def polygon(coverage, points, ends, contours, nonzero):
     i: cython.Py_ssize_t
     total: cython.Py_ssize_t = ends[contours - 1] if contours else 0
     n: cython.longlong = coverage.n
-    # The sub-scanlines that the shape may touch, and the rows of n sub-scanlines that hold them.
+    block: cython.longlong = coverage.block
+    # The sub-scanlines that the shape may touch, and the blocks that hold them.
     low: cython.longlong = coverage.end
     high: cython.longlong = coverage.first
     for i in range(total):
@@ -31,30 +30,32 @@ def polygon(coverage, points, ends, contours, nonzero):
     high = min(high, coverage.end)
     if low >= high:
         return
-    top: cython.longlong = (low - coverage.first) // n
-    bottom: cython.longlong = (high - 1 - coverage.first) // n + 1
+    top: cython.longlong = (low - coverage.first) // block
+    bottom: cython.longlong = (high - 1 - coverage.first) // block + 1
     edges: cython.pointer[Edge]
     active: cython.pointer[cython.pointer[Edge]]
+    sides: cython.pointer[cython.pointer[Edge]]
     spans: cython.p_longlong
     starting: cython.p_int
     if cython.compiled:
-        room: cython.Py_ssize_t = total * (cython.sizeof(Edge) + cython.sizeof(cython.p_char))
+        room: cython.Py_ssize_t = total * (cython.sizeof(Edge) + 2 * cython.sizeof(cython.p_char))
         room += (total + 2) * cython.sizeof(cython.longlong) + (bottom - top) * cython.sizeof(cython.int)
         edges = cython.cast(cython.pointer(Edge), coverage.scratch(room))
         spans = cython.cast(cython.p_longlong, edges + total)
         active = cython.cast(cython.pointer(cython.pointer(Edge)), spans + total + 2)
-        starting = cython.cast(cython.p_int, active + total)
+        sides = active + total
+        starting = cython.cast(cython.p_int, sides + total)
     else:
         edges = [Edge() for _ in range(total)]
         spans = [0] * (total + 2)
-        active = [None] * total
+        active, sides = [None] * total, [None] * total
         starting = [0] * (bottom - top)
     if _collect(coverage, points, ends, contours, top, bottom, edges, starting):
-        _sweep(coverage, top, bottom, nonzero, edges, starting, active, spans)
+        _sweep(coverage, top, bottom, nonzero, edges, starting, active, sides, spans)
 
 
 def _collect(coverage, points, ends, contours, top, bottom, edges, starting):
-    """Find the edges that cross sub-scanlines of these rows; chain those that start in the same row; count them all."""
+    """Find the edges that cross these blocks; chain those that start in the same block; count them all."""
     count: cython.int = 0
     contour: cython.Py_ssize_t
     i: cython.Py_ssize_t
@@ -62,6 +63,7 @@ def _collect(coverage, points, ends, contours, top, bottom, edges, starting):
     start: cython.Py_ssize_t = 0
     row: cython.longlong
     n: cython.longlong = coverage.n
+    block: cython.longlong = coverage.block
     for row in range(bottom - top):
         starting[row] = -1
     for contour in range(contours):
@@ -77,7 +79,7 @@ def _collect(coverage, points, ends, contours, top, bottom, edges, starting):
                 x1, y1, x2, y2 = x2, y2, x1, y1
                 winding = -1
             # Sub-scanline h lies at 512 h - middle on the lattice.
-            first: cython.longlong = max((2 * n * y1 + coverage.middle + 511) >> 9, coverage.first + top * n)
+            first: cython.longlong = max((2 * n * y1 + coverage.middle + 511) >> 9, coverage.first + top * block)
             end: cython.longlong = min((2 * n * y2 + coverage.middle + 511) >> 9, coverage.end)
             if first >= end:
                 continue
@@ -86,7 +88,7 @@ def _collect(coverage, points, ends, contours, top, bottom, edges, starting):
             edges[count].winding = winding
             edge: cython.pointer[Edge] = cython.address(edges[count]) if cython.compiled else edges[count]
             _place(coverage, edge, x1, y1, x2 - x1, y2 - y1)
-            row = (first - coverage.first) // n - top
+            row = (first - coverage.first) // block - top
             edges[count].next = starting[row]
             starting[row] = count
             count += 1
@@ -108,29 +110,30 @@ def _place(coverage, edge, x1, y1, dx, dy):
     step: cython.double = dx / cython.cast(cython.double, dy)
     edge.bound = floored(bound)
     edge.step = floored(step)
-    edge.fraction = floored((bound - edge.bound) * (one << 62))
-    edge.fraction_step = floored((step - edge.step) * (one << 62))
+    edge.fraction = floored((bound - edge.bound) * (one << FRACTION))
+    edge.fraction_step = floored((step - edge.step) * (one << FRACTION))
 
 
-def _sweep(coverage, top, bottom, nonzero, edges, starting, active, spans):
-    """Keep the edges of the present row of sub-scanlines in the order of their crossings, between which spans lie."""
+def _sweep(coverage, top, bottom, nonzero, edges, starting, active, sides, spans):
+    """Keep the edges of the present block in the order of their crossings, between which spans lie."""
     row: cython.longlong
     h: cython.longlong
-    n: cython.longlong = coverage.n
+    block: cython.longlong = coverage.block
     crossing: cython.int = 0
     next: cython.int
     i: cython.int
     j: cython.int
-    # The first sub-scanline before which no active edge ends.
+    # The first sub-scanline before which no active edge ends; the last one before which one begins.
     soonest: cython.longlong = coverage.first
+    latest: cython.longlong = coverage.first
     for row in range(top, bottom):
-        top_line: cython.longlong = coverage.first + row * n
-        if soonest <= top_line:
+        begin: cython.longlong = coverage.first + row * block
+        if soonest <= begin:
             soonest = coverage.end
             j = 0
             for i in range(crossing):
                 active[j] = active[i]
-                if active[i].end > top_line:
+                if active[i].end > begin:
                     soonest = min(soonest, active[i].end)
                     j += 1
             crossing = j
@@ -138,16 +141,61 @@ def _sweep(coverage, top, bottom, nonzero, edges, starting, active, spans):
         while next >= 0:
             active[crossing] = cython.address(edges[next]) if cython.compiled else edges[next]
             soonest = min(soonest, active[crossing].end)
+            latest = max(latest, active[crossing].first)
             next = active[crossing].next
             crossing += 1
         if crossing == 0:
             continue
-        for h in range(top_line, min(top_line + n, coverage.end)):
-            for i in range(1, crossing):
-                if active[i - 1].bound > active[i].bound:
-                    _sort(active, crossing)
-                    break
+        _put_in_order(active, crossing)
+        if block > 1 and latest <= begin and begin + block <= soonest and _stay_in_order(active, crossing, block):
+            _take_block(coverage, active, crossing, begin, nonzero, sides)
+            continue
+        for h in range(begin, begin + block):
             coverage.spans(h, spans, _spans(active, crossing, h, nonzero, spans) >> 1)
+            _put_in_order(active, crossing)
+
+
+def _stay_in_order(active, crossing, lines):
+    """Whether edges that are in order stay so for some sub-scanlines: then they are sides of the same spans."""
+    i: cython.int
+    k: cython.int
+    last: cython.longlong = lines - 1
+    for i in range(1, crossing):
+        a: cython.pointer[Edge] = active[i - 1]
+        b: cython.pointer[Edge] = active[i]
+        if place(a, last) < place(b, last) and a.bound < b.bound:
+            continue
+        for k in range(1, lines):
+            if place(a, k) > place(b, k):
+                return False
+    return True
+
+
+def _take_block(coverage, active, crossing, h, nonzero, sides):
+    """Let edges run through the block from sub-scanline `h` on; those at which spans begin and end are its sides."""
+    i: cython.int
+    count: cython.int = 0
+    winding: cython.int = 0
+    lines: cython.longlong = coverage.block
+    if nonzero:
+        for i in range(crossing):
+            outside: cython.bint = winding == 0
+            winding += active[i].winding
+            sides[count] = active[i]
+            count += outside or winding == 0
+        coverage.block_of_edges(h, sides, count)
+    else:
+        coverage.block_of_edges(h, active, crossing)
+    for i in range(crossing):
+        _step(active[i], lines)
+
+
+def _step(edge, lines):
+    """Let an edge move to a sub-scanline below."""
+    one: cython.longlong = 1
+    edge.fraction += lines * edge.fraction_step
+    edge.bound += lines * edge.step + (edge.fraction >> FRACTION)
+    edge.fraction &= (one << FRACTION) - 1
 
 
 def _spans(active, crossing, h, nonzero, spans):
@@ -155,20 +203,24 @@ def _spans(active, crossing, h, nonzero, spans):
     i: cython.int
     count: cython.int = 0
     winding: cython.int = 0
-    one: cython.longlong = 1
-    whole: cython.longlong = (one << 62) - 1
     for i in range(crossing):
         edge: cython.pointer[Edge] = active[i]
-        if not edge.first <= h < edge.end:
-            continue
-        outside: cython.bint = winding == 0
-        winding += edge.winding
-        spans[count] = edge.bound
-        count += not nonzero or outside or winding == 0
-        edge.fraction += edge.fraction_step
-        edge.bound += edge.step + (edge.fraction >> 62)
-        edge.fraction &= whole
+        if edge.first <= h < edge.end:
+            outside: cython.bint = winding == 0
+            winding += edge.winding
+            spans[count] = edge.bound
+            count += not nonzero or outside or winding == 0
+            _step(edge, 1)
     return count
+
+
+def _put_in_order(active, crossing):
+    """Sort edges by their bounds, if they are not in order."""
+    i: cython.int
+    for i in range(1, crossing):
+        if active[i - 1].bound > active[i].bound:
+            _sort(active, crossing)
+            return
 
 
 def _sort(active, crossing):
