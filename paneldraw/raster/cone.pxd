@@ -4,6 +4,7 @@ cdef enum:
     # So many sub-scanlines are weighed as one where edges are steep.
     BLOCK = 5
 
+cdef class Profile
 cdef class Filter:
     cdef readonly double radius
     cdef readonly object name
@@ -18,9 +19,12 @@ cdef class Filter:
     # The weights of a span's end, by sub-scanline and by block: see `_weights`.
     cdef object kept_weights
     cdef int *weights
+    # The profile that was asked for last.
+    cdef Profile latest
 
     cdef object prepare(self)
-    cdef double volume(self, double u, double v) noexcept nogil
+    cdef double strip(self, double u, double low, double high) noexcept nogil
+    cdef inline double _entry(self, int row, double v) noexcept nogil
 
 cdef class ConeFilter:
     cdef readonly double radius
@@ -29,7 +33,9 @@ cdef class ConeFilter:
     cdef Filter kept
 
 cdef class Profile:
-    cdef double nearest
+    cdef Filter filter
+    cdef double width, nearest
+    cdef long long nearest_part
     cdef int farthest
     cdef object kept
     cdef int *coverage

@@ -132,6 +132,7 @@ class Filter:
         self.resolution = resolution
         self.steps = 2 * resolution
         self.table = None
+        self.latest = None
         # An even number of blocks: the middle of a pixel lies between two of them.
         self.n = 2 * BLOCK * min(int(ceil(0.125 * resolution / self.radius)), 12)
         self.lines = 2 * BLOCK * int(ceil(self.radius * self.n / BLOCK))
@@ -158,21 +159,26 @@ class Filter:
             self.volumes = volumes.ravel().tolist()
         self.table = volumes
 
-    def volume(self, u, v):
-        """C(u, v), interpolated between the table's four nearest entries; lengths in pixels."""
+    def strip(self, u, low, high):
+        """C(u, high) - C(u, low), interpolated between the table's nearest entries; lengths in pixels."""
         scale: cython.double = self.resolution / self.radius
         u = min(max((u + self.radius) * scale, 0), self.steps)
-        v = min(max((v + self.radius) * scale, 0), self.steps)
         i: cython.int = min(cython.cast(cython.int, floored(u)), self.steps - 1)
-        j: cython.int = min(cython.cast(cython.int, floored(v)), self.steps - 1)
         u -= i
-        v -= j
-        at: cython.int = i * (self.steps + 1) + j
-        table: cython.p_double = self.volumes
-        below: cython.double = table[at] + (table[at + 1] - table[at]) * v
-        at += self.steps + 1
-        above: cython.double = table[at] + (table[at + 1] - table[at]) * v
-        return below + (above - below) * u
+        i *= self.steps + 1
+        low = (low + self.radius) * scale
+        high = (high + self.radius) * scale
+        left: cython.double = self._entry(i, high) - self._entry(i, low)
+        i += self.steps + 1
+        return left + (self._entry(i, high) - self._entry(i, low) - left) * u
+
+    def _entry(self, row, v):
+        """A table's row at `v`, in steps, interpolated."""
+        v = min(max(v, 0), self.steps)
+        at: cython.int = min(cython.cast(cython.int, floored(v)), self.steps - 1)
+        v -= at
+        at += row
+        return self.volumes[at] + (self.volumes[at + 1] - self.volumes[at]) * v
 
 
 # The tables of all filters that were asked for, and the filter that was asked for last: the next one mostly equals it.
@@ -241,13 +247,17 @@ class Profile:
     def __init__(self, filter: Filter, width):
         t: cython.int
         half: cython.double = width / 2
+        self.filter = filter
+        self.width = width
         self.nearest = max(half - filter.radius, 0.0)
+        # In 2**24 parts of an entry; what is nearer to an entry than to others is read there.
+        self.nearest_part = floored(self.nearest * (PROFILE_STEPS / filter.radius * (1 << 24))) - (1 << 23)
         self.farthest = int(ceil((half + filter.radius - self.nearest) * PROFILE_STEPS / filter.radius))
         coverage = array.array("i", [0]) * (self.farthest + 1)
         for t in range(self.farthest):
             distance: cython.double = self.nearest + t * (filter.radius / PROFILE_STEPS)
-            beyond: cython.double = filter.volume(filter.radius, -half - distance)
-            coverage[t] = int((filter.volume(filter.radius, half - distance) - beyond) * FILTER_FULL + 0.5)
+            volume: cython.double = filter.strip(filter.radius, -half - distance, half - distance)
+            coverage[t] = int(volume * FILTER_FULL + 0.5)
         self.kept = bytearray(coverage.tobytes())
         self.coverage = cython.cast(cython.p_int, _bytes(self.kept)) if cython.compiled else list(coverage)
 
@@ -259,8 +269,10 @@ def _profile(filter, width):
 
 def profile_of(filter, width):
     """The profile of a line of that width, made once."""
-    filter.prepare()
-    return _profile(filter, width)
+    if filter.latest is None or filter.latest.width != width:
+        filter.prepare()
+        filter.latest = _profile(filter, width)
+    return filter.latest
 
 
 @cython.cfunc

@@ -7,13 +7,13 @@ is inside if the inside lies to its right or, on a horizontal edge, below: recta
 
 import cython
 from cython.cimports.libc.math import sqrt
-from cython.cimports.paneldraw.raster.cone import FILTER_FULL, Filter, Profile, profile_of
+from cython.cimports.paneldraw.raster.cone import FILTER_FULL, Profile, profile_of
 from cython.cimports.paneldraw.raster.floors import floored
 from cython.cimports.paneldraw.raster.paint import inverse_of, meet, paint_eight
-from cython.cimports.paneldraw.raster.surface import CLEAR, Surface
+from cython.cimports.paneldraw.raster.surface import CLEAR
 
 if not cython.compiled:
-    Bounds = type("Bounds", (), {})
+    Bounds, Frame = type("Bounds", (), {}), type("Frame", (), {})
 
 
 def thick_line(coverage, x1, y1, x2, y2, width, square):
@@ -268,18 +268,21 @@ def filtered_line(coverage, x1, y1, x2, y2, width, square):
 
     Away from the ends, where the filter reaches neither, coverage depends on the distance across alone.
     """
-    filter: Filter = coverage.filter
-    _filtered_rectangle(
-        coverage.surface,
-        filter,
-        profile_of(filter, width / 256.0),
-        x1 / 256.0,
-        y1 / 256.0,
-        x2 / 256.0,
-        y2 / 256.0,
-        width / 512.0,
-        square,
-    )
+    frame: Frame
+    if not cython.compiled:
+        frame = Frame()
+    dx: cython.double = (x2 - x1) / 256.0
+    dy: cython.double = (y2 - y1) / 256.0
+    length: cython.double = sqrt(dx * dx + dy * dy)
+    frame.x = x1 / 256.0
+    frame.y = y1 / 256.0
+    frame.ux = dx / length if length > 0 else 1
+    frame.uy = dy / length if length > 0 else 0
+    frame.half = width / 512.0
+    frame.before = -frame.half if square else 0
+    frame.behind = length - frame.before
+    profile: Profile = profile_of(coverage.filter, width / 256.0)
+    _filtered_rows(coverage.surface, profile, cython.address(frame) if cython.compiled else frame)
 
 
 # Entries of a profile a radius; the parts that a distance in entries is known to; farther than anything on a surface.
@@ -288,90 +291,80 @@ _PART = cython.declare(cython.longlong, 1 << 24)
 _FAR = cython.declare(cython.double, 1e9)
 
 
-@cython.cfunc
-@cython.nogil
-@cython.exceptval(check=False)
-def _filtered_rectangle(
-    surface: Surface,
-    filter: Filter,
-    profile: Profile,
-    x1: cython.double,
-    y1: cython.double,
-    x2: cython.double,
-    y2: cython.double,
-    half: cython.double,
-    square: cython.bint,
-) -> cython.void:
-    """The rectangle, in pixels."""
-    radius: cython.double = filter.radius
-    length: cython.double = sqrt((x2 - x1) * (x2 - x1) + (y2 - y1) * (y2 - y1))
-    ux: cython.double = (x2 - x1) / length if length > 0 else 1
-    uy: cython.double = (y2 - y1) / length if length > 0 else 0
-    before: cython.double = -half if square else 0
-    behind: cython.double = length - before
-    # The rows that the filter touches the rectangle in; in a row, what is between the sides and between the ends.
-    rise: cython.double = abs(ux) * (half + radius) + abs(uy) * (radius - before)
-    top: cython.Py_ssize_t = max(surface.top, -floored(rise - min(y1, y2)))
-    bottom: cython.Py_ssize_t = min(surface.bottom, floored(max(y1, y2) + rise) + 1)
+def _filtered_rows(surface, profile, frame):
+    """Find the rows that the filter touches the rectangle in and, in each, what lies between its sides and its ends."""
+    radius: cython.double = profile.filter.radius
+    ux: cython.double = frame.ux
+    uy: cython.double = frame.uy
+    down: cython.double = uy * (frame.behind + frame.before)
+    rise: cython.double = abs(ux) * (frame.half + radius) + abs(uy) * (radius - frame.before)
+    top: cython.Py_ssize_t = max(surface.top, -floored(rise - frame.y - min(down, 0)))
+    bottom: cython.Py_ssize_t = min(surface.bottom, floored(frame.y + max(down, 0) + rise) + 1)
     side_slope: cython.double = ux / uy if uy != 0 else 0
-    side: cython.double = abs((half + radius) / uy) if uy != 0 else _FAR
+    side: cython.double = abs((frame.half + radius) / uy) if uy != 0 else _FAR
     end_slope: cython.double = -uy / ux if ux != 0 else 0
-    back: cython.double = min((before - radius) / ux, (behind + radius) / ux) if ux != 0 else -_FAR
-    front: cython.double = max((before - radius) / ux, (behind + radius) / ux) if ux != 0 else _FAR
+    back: cython.double = -_FAR
+    front: cython.double = _FAR
+    if ux != 0:
+        back = min((frame.before - radius) / ux, (frame.behind + radius) / ux)
+        front = max((frame.before - radius) / ux, (frame.behind + radius) / ux)
     # u and v in fixed-point numbers: entries of the profile, and their parts. Steps of whole numbers add up to the
     # same, wherever a window lets a row begin.
     scale: cython.double = _ENTRIES / radius * _PART
-    along: cython.longlong = floored(ux * scale)
-    across: cython.longlong = floored(uy * scale)
-    behind_start: cython.longlong = floored((before + radius) * scale)
-    before_end: cython.longlong = floored((behind - radius) * scale)
-    origin: cython.longlong = floored(x1)
-    nearest: cython.longlong = floored(profile.nearest * scale) - _PART // 2
+    frame.scale = scale
+    frame.along = floored(ux * scale)
+    frame.across = floored(uy * scale)
+    frame.past_start = floored((frame.before + radius) * scale)
+    frame.before_end = floored((frame.behind - radius) * scale)
+    origin: cython.longlong = floored(frame.x)
+    aside: cython.double = origin - frame.x
+    y: cython.Py_ssize_t
+    for y in range(top, bottom):
+        below: cython.double = y - frame.y
+        middle: cython.double = frame.x + side_slope * below
+        foot: cython.double = frame.x + end_slope * below
+        first: cython.Py_ssize_t = -floored(min(side - middle, -back - foot, -surface.left))
+        end: cython.Py_ssize_t = floored(min(middle + side, foot + front, surface.right - 1)) + 1
+        u: cython.longlong = floored((ux * aside + uy * below) * scale) + frame.along * (first - origin)
+        v: cython.longlong = floored((ux * below - uy * aside) * scale) - frame.across * (first - origin)
+        _filtered_row(surface, profile, frame, y * surface.stride + first, end - first, u, v)
+
+
+def _filtered_row(surface, profile, frame, at, count, u, v):
+    """Paint `count` pixels from place `at` on, of which the first is at (u, v) in the line's frame."""
+    nearest: cython.longlong = profile.nearest_part
     farthest: cython.longlong = profile.farthest
     profiled: cython.p_int = profile.coverage
+    pixels: cython.p_uchar = surface.pixels
     op: cython.int = surface.op
     highest: cython.int = surface.max_level
     level: cython.longlong = surface.level if op != CLEAR else 0
     inverse: cython.longlong = inverse_of(FILTER_FULL)
-    y: cython.Py_ssize_t
     i: cython.Py_ssize_t
-    for y in range(top, bottom):
-        middle: cython.double = x1 + side_slope * (y - y1)
-        foot: cython.double = x1 + end_slope * (y - y1)
-        first: cython.Py_ssize_t = -floored(min(side - middle, -back - foot, -surface.left))
-        end: cython.Py_ssize_t = floored(min(middle + side, foot + front, surface.right - 1)) + 1
-        u: cython.longlong = floored((ux * (origin - x1) + uy * (y - y1)) * scale) + along * (first - origin)
-        v: cython.longlong = floored((ux * (y - y1) - uy * (origin - x1)) * scale) - across * (first - origin)
-        pixels: cython.p_uchar = surface.pixels
-        for i in range(y * surface.stride + first, y * surface.stride + end):
-            covered: cython.longlong
-            if behind_start <= u <= before_end:
-                covered = profiled[min(max((abs(v) - nearest) >> 24, 0), farthest)]
-            else:
-                covered = floored(_volume(filter, u / scale, v / scale, before, behind, half) * FILTER_FULL + 0.5)
-            u += along
-            v -= across
-            if highest > 1:
-                pixels[i] = meet(pixels[i], level, covered, FILTER_FULL, inverse, op, highest)
-            elif 2 * covered >= FILTER_FULL:
-                pixels[i] = surface.becomes[pixels[i]]
+    for i in range(at, at + count):
+        covered: cython.longlong = profiled[min(max((abs(v) - nearest) >> 24, 0), farthest)]
+        if u < frame.past_start or u > frame.before_end:
+            covered = _near_end(profile.filter, frame, u / frame.scale, v / frame.scale, covered)
+        u += frame.along
+        v -= frame.across
+        if highest > 1:
+            pixels[i] = meet(pixels[i], level, covered, FILTER_FULL, inverse, op, highest)
+        elif 2 * covered >= FILTER_FULL:
+            pixels[i] = surface.becomes[pixels[i]]
 
 
-@cython.cfunc
-@cython.nogil
-@cython.exceptval(check=False)
-def _volume(
-    filter: Filter,
-    u: cython.double,
-    v: cython.double,
-    before: cython.double,
-    behind: cython.double,
-    half: cython.double,
-) -> cython.double:
-    """The volume over a rectangle, seen from the pixel, by four look-ups."""
-    return (
-        filter.volume(behind - u, half - v)
-        - filter.volume(before - u, half - v)
-        - filter.volume(behind - u, -half - v)
-        + filter.volume(before - u, -half - v)
-    )
+def _near_end(filter, frame, u, v, away):
+    """The coverage of a pixel at (u, v), near an end: what is before the end, less what is before the beginning.
+
+    `away` is what it would be away from both.
+    """
+    behind: cython.double = frame.behind - u
+    before: cython.double = frame.before - u
+    volume: cython.double
+    if behind < filter.radius:
+        volume = filter.strip(behind, -frame.half - v, frame.half - v)
+    else:
+        volume = away / cython.cast(cython.double, FILTER_FULL)
+    if before > -filter.radius:
+        volume -= filter.strip(before, -frame.half - v, frame.half - v)
+    return floored(volume * FILTER_FULL + 0.5)
