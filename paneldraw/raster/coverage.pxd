@@ -2,7 +2,8 @@ from paneldraw.raster.cone cimport Filter
 from paneldraw.raster.surface cimport Surface
 
 cdef enum:
-    # The bits of a fraction of a sub-pixel: 16 sub-scanlines of them, added up, fit in 64 bits.
+    # The most sub-scanlines of a block, and the bits of a fraction of a sub-pixel: so many, added up, fit in 64 bits.
+    MOST = 16
     FRACTION = 58
     # An edge that moves by no more sub-pixels from one sub-scanline to the next is weighed a block at a time: that is
     # off by at most 0.5 of 255, with a box filter by 1.2.
@@ -69,7 +70,8 @@ cdef class Coverage:
     cdef void row_of_spans(self, long long y, long long *ends, int count) noexcept nogil
     cdef void finish(self) noexcept nogil
     cdef void block_of_spans(self, long long h, long long *ends, int count) noexcept nogil
-    cdef void block_of_edges(self, long long h, Edge **edges, int count) noexcept nogil
+    cdef void block_of_edges(self, long long h, int lines, Edge **edges, int count) noexcept nogil
+    cdef void _paint_between(self, long long y, int lines, Edge *left, Edge *right) noexcept nogil
     cdef inline void _count(self, long long *ends, int count) noexcept nogil
     cdef void _count_edges(self, Edge **edges, int count) noexcept nogil
     cdef void _weigh_edges(self, long long h, Edge **edges, int count) noexcept nogil

@@ -27,7 +27,7 @@ TYPE_CHECKING = False
 _FIXED = cython.declare(cython.int, 36)
 
 if not cython.compiled:
-    FRACTION, STEEP = 58, 8
+    MOST, FRACTION, STEEP = 16, 58, 8
     Edge = type("Edge", (), {})
 
     def place(edge, lines):
@@ -247,14 +247,31 @@ class Coverage:
         self._look_up(h, self.block)
         self._weigh(ends, count)
 
-    def block_of_edges(self, h, edges, count):
-        """Take the spans of the block of sub-scanlines from `h` on that lie between straight edges, two by two."""
+    def block_of_edges(self, h, lines, edges, count):
+        """Take the spans of `lines` sub-scanlines from `h` on that lie between straight edges, two by two.
+
+        That is a whole `block`; where pixels are not covered in part, any number up to `MOST`.
+        """
+        i: cython.int
+        if not self.partial:
+            for i in range(0, count, 2):
+                self._paint_between(h, lines, edges[i], edges[i + 1])
+            return
         if h >= self.limit:
             self._advance(h)
         if self.filter is None:
             self._count_edges(edges, count)
         else:
             self._weigh_edges(h, edges, count)
+
+    def _paint_between(self, y, lines, left, right):
+        """Paint the pixels between two edges in the rows from `y` on."""
+        k: cython.int
+        for k in range(lines):
+            a: cython.longlong = max(place(left, k), self.surface.left)
+            b: cython.longlong = min(place(right, k), self.surface.right)
+            if a < b:
+                self.surface.span(y + k, a, b)
 
     def _count(self, ends, count):
         """Add spans of the present row of pixels: a sub-pixel is 1 in its own pixel."""

@@ -12,7 +12,7 @@ cdef void _sweep(
 ) noexcept nogil
 cdef bint _stay_in_order(Edge **active, int crossing, int lines) noexcept nogil
 cdef void _take_block(
-    Coverage coverage, Edge **active, int crossing, long long h, bint nonzero, Edge **sides
+    Coverage coverage, Edge **active, int crossing, long long h, int lines, bint nonzero, Edge **sides
 ) noexcept nogil
 cdef void _step(Edge *edge, long long lines) noexcept nogil
 cdef int _spans(Edge **active, int crossing, long long h, bint nonzero, long long *spans) noexcept nogil

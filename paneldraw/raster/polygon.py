@@ -5,7 +5,7 @@ or, on a horizontal edge, below: polygons that share an edge share no point and 
 """
 
 import cython
-from cython.cimports.paneldraw.raster.coverage import FRACTION, Edge, place
+from cython.cimports.paneldraw.raster.coverage import FRACTION, MOST, Edge, place
 from cython.cimports.paneldraw.raster.floors import floored
 
 
@@ -126,8 +126,10 @@ def _sweep(coverage, top, bottom, nonzero, edges, starting, active, sides, spans
     # The first sub-scanline before which no active edge ends; the last one before which one begins.
     soonest: cython.longlong = coverage.first
     latest: cython.longlong = coverage.first
-    for row in range(top, bottom):
+    row = top
+    while row < bottom:
         begin: cython.longlong = coverage.first + row * block
+        lines: cython.int = cython.cast(cython.int, block)
         if soonest <= begin:
             soonest = coverage.end
             j = 0
@@ -144,13 +146,16 @@ def _sweep(coverage, top, bottom, nonzero, edges, starting, active, sides, spans
             latest = max(latest, active[crossing].first)
             next = active[crossing].next
             crossing += 1
-        if crossing == 0:
-            continue
         _put_in_order(active, crossing)
-        if block > 1 and latest <= begin and begin + block <= soonest and _stay_in_order(active, crossing, block):
-            _take_block(coverage, active, crossing, begin, nonzero, sides)
+        row += 1
+        while block == 1 and crossing == 2 and lines < MOST and begin + lines < soonest and starting[row - top] < 0:
+            # Aliased, a block is what the same two edges cross: triangles take a third less.
+            lines += 1
+            row += 1
+        if lines > 1 and latest <= begin and begin + lines <= soonest and _stay_in_order(active, crossing, lines):
+            _take_block(coverage, active, crossing, begin, lines, nonzero, sides)
             continue
-        for h in range(begin, begin + block):
+        for h in range(begin, begin + lines):
             coverage.spans(h, spans, _spans(active, crossing, h, nonzero, spans) >> 1)
             _put_in_order(active, crossing)
 
@@ -171,21 +176,20 @@ def _stay_in_order(active, crossing, lines):
     return True
 
 
-def _take_block(coverage, active, crossing, h, nonzero, sides):
-    """Let edges run through the block from sub-scanline `h` on; those at which spans begin and end are its sides."""
+def _take_block(coverage, active, crossing, h, lines, nonzero, sides):
+    """Let edges run through a block of sub-scanlines from `h` on; those at which spans begin and end are its sides."""
     i: cython.int
     count: cython.int = 0
     winding: cython.int = 0
-    lines: cython.longlong = coverage.block
     if nonzero:
         for i in range(crossing):
             outside: cython.bint = winding == 0
             winding += active[i].winding
             sides[count] = active[i]
             count += outside or winding == 0
-        coverage.block_of_edges(h, sides, count)
+        coverage.block_of_edges(h, lines, sides, count)
     else:
-        coverage.block_of_edges(h, active, crossing)
+        coverage.block_of_edges(h, lines, active, crossing)
     for i in range(crossing):
         _step(active[i], lines)
 
