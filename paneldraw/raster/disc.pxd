@@ -34,10 +34,11 @@ cdef void disc(Coverage coverage, Round *shape, long long width, Part part) noex
 cdef void ring(Coverage coverage, Round *shape, long long width, Part part) noexcept nogil
 cdef void _sweep(Coverage coverage, Round *shape, long long width, bint hollow, Part part) noexcept nogil
 cdef void _lines(Coverage coverage, Edges *edges, Part part, long long first, long long last) noexcept nogil
-cdef void _rows(Coverage coverage, Edges *edges, long long first, long long last) noexcept nogil
+cdef void _rows(Coverage coverage, Edges *edges, Part part, long long first, long long last) noexcept nogil
 cdef void _blocks(Coverage coverage, Edges *edges, Part part, long long first, long long last) noexcept nogil
 cdef bint _are_steep(long long *above, long long *ends, long long *below, int count, int block) noexcept nogil
 cdef int _spans(Coverage coverage, Edges *edges, Part part, long long h, long long *ends) noexcept nogil
+cdef int _cut(Coverage coverage, Edges *edges, Part part, long long h, long long *ends) noexcept nogil
 cdef int _between(Edges *edges, long long y, long long *ends, int at) noexcept nogil
 cdef bint _grow(Round *grown, Round *shape, long long n, long long outward) noexcept nogil
 cdef bint _across(Round *shape, long long y, long long *ends, int at) noexcept nogil

@@ -58,8 +58,8 @@ def _sweep(coverage, shape, width, hollow, part):
     to: cython.pointer[Edges] = cython.address(edges) if cython.compiled else edges
     if coverage.filter is not None:
         _blocks(coverage, to, part, first, last)
-    elif part is None and coverage.partial:
-        _rows(coverage, to, first, last)
+    elif coverage.partial:
+        _rows(coverage, to, part, first, last)
     else:
         _lines(coverage, to, part, first, last)
 
@@ -74,20 +74,27 @@ def _lines(coverage, edges, part, first, last):
         coverage.spans(h, ends, _spans(coverage, edges, part, h, ends))
 
 
-def _rows(coverage, edges, first, last):
-    """Take a row of pixels in one call, of a whole disc or ring: half as many instructions."""
+def _rows(coverage, edges, part, first, last):
+    """Take a row of pixels in one call: a third fewer instructions."""
     h: cython.longlong
     i: cython.int
-    ends: cython.longlong[64]
+    ends: cython.longlong[512]
+    line: cython.longlong[32]
     if not cython.compiled:
-        ends = [0] * 64
+        ends, line = [0] * 512, [0] * 32
     n: cython.longlong = coverage.n
     while first < last:
         y: cython.longlong = first // n
         end: cython.longlong = min(last, (y + 1) * n)
         count: cython.int = 0
         for h in range(first, end):
-            count += _between(edges, 512 * h - coverage.middle, ends, 2 * count)
+            if part is None:
+                count += _between(edges, 512 * h - coverage.middle, ends, 2 * count)
+                continue
+            more: cython.int = _cut(coverage, edges, part, h, line)
+            for i in range(2 * more):
+                ends[2 * count + i] = line[i]
+            count += more
         for i in range(2 * count):
             ends[i] = (ends[i] + coverage.middle + 511) >> 9
         coverage.row_of_spans(y, ends, count)
@@ -145,12 +152,18 @@ def _are_steep(above, ends, below, count, block):
 def _spans(coverage, edges, part, h, ends):
     """Write the ends of the spans of a sub-scanline, in sub-pixels; return how many spans there are."""
     i: cython.int
+    count: cython.int = _cut(coverage, edges, part, h, ends)
+    for i in range(2 * count):
+        ends[i] = (ends[i] + coverage.middle + 511) >> 9
+    return count
+
+
+def _cut(coverage, edges, part, h, ends):
+    """The same on the lattice."""
     y: cython.longlong = 512 * h - coverage.middle
     count: cython.int = _between(edges, y, ends, 0)
     if part is not None:
         count = part.cut(ends, count, y, edges.middle, edges.half, coverage.n)
-    for i in range(2 * count):
-        ends[i] = (ends[i] + coverage.middle + 511) >> 9
     return count
 
 

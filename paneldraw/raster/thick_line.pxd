@@ -49,6 +49,7 @@ cdef bint _swept(
     long long inside, long long outside, bint square,
 ) noexcept nogil
 cdef void _sweep(Coverage coverage, long long top, long long bottom, Bounds *at) noexcept nogil
+cdef void _row(Coverage coverage, long long y, Bounds *at) noexcept nogil
 cdef long long _root_of_product(unsigned long long a, unsigned long long b) noexcept nogil
 
 cdef void _filtered_rows(Surface surface, Profile profile, Frame *frame) noexcept nogil
