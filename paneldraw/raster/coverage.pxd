@@ -63,6 +63,7 @@ cdef class Coverage:
     cdef Py_ssize_t[16] tables
 
     cdef object begin(self, object antialias)
+    cdef object _open_rows(self)
     cdef object _make_room(self)
     cdef int *row_of_changes(self) except NULL
     cdef char *scratch(self, Py_ssize_t size) except? NULL

@@ -130,7 +130,6 @@ class Coverage:
 
     def begin(self, antialias):
         """Begin a shape: aliased for None, counted for a Supersample, weighed for a ConeFilter."""
-        i: cython.int
         surface: Surface = self.surface
         samples: Supersample
         cone: ConeFilter
@@ -168,14 +167,18 @@ class Coverage:
             # x * n_inverse >> 32 is x // n, for x below 2**32 / n.
             self.n_inverse = (one << 32) // self.n + 1
             self.full_inverse = inverse_of(self.full)
-        if not self.partial:
-            return
-        self.row = surface.top
+        if self.partial:
+            self._open_rows()
+
+    def _open_rows(self):
+        """Begin with the first row of pixels, nothing of which is touched."""
+        i: cython.int
+        self.row = cython.cast(cython.int, self.surface.top)
         self.limit = self.first
         self.slot = 0
         self.rows = 1 if self.filter is None else (self.lines + self.n - 1) // self.n
         self.dirty = False
-        self.columns = surface.width + 4 * self.reach
+        self.columns = cython.cast(cython.int, self.surface.width) + 4 * self.reach
         for i in range(self.rows):
             self.touched_first[i] = 1 << 30
             self.touched_end[i] = 0
