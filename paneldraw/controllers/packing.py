@@ -87,11 +87,36 @@ def pack_nibbles(levels: Any, max_level: cython.int, packed: Any) -> None:
             pairs[first + x] = nibbles[left] << 4 | nibbles[right]
 
 
+def pack_rows(levels: Any, max_level: cython.int, packed: Any) -> None:
+    """Pack rows of levels eight pixels a byte, the left one in the highest bit.
+
+    Parameters
+    ----------
+    levels : (height, width) uint8, any strides
+        The width a multiple of 8.
+    max_level : int
+        The highest level; the upper half of the levels is lit.
+    packed : (height, width / 8) uint8, contiguous
+        Where the rows go, from the top.
+    """
+    source, target = _rectangle(levels), _rectangle(packed)
+    pixels, rows, step, width = source.start, target.start, source.across, target.width
+    threshold = cython.cast(cython.uchar, max_level >> 1)
+    for y in range(target.height):
+        at, first = y * source.down, y * width
+        for x in range(first, first + width):
+            byte = 0
+            for _ in range(8):
+                byte = byte << 1 | (pixels[at] > threshold)
+                at += step
+            rows[x] = byte
+
+
 _NIBBLES = {
     highest: ((30 * np.arange(256) + highest) // (2 * highest)).clip(max=15).astype(np.uint8)[np.newaxis]
     for highest in (1, 3, 15, 255)
 }
 """What a level becomes, by the highest level that there is."""
 
-PACK = {"pages": pack_pages, "nibbles": pack_nibbles}
+PACK = {"pages": pack_pages, "nibbles": pack_nibbles, "rows": pack_rows}
 """The functions by the packing that a controller names."""

@@ -6,21 +6,25 @@ from dataclasses import dataclass
 from typing import Final
 
 #: Pixels that share a byte, by packing: columns and rows.
-PACKINGS: Final = {"pages": (1, 8), "nibbles": (2, 1)}
+PACKINGS: Final = {"pages": (1, 8), "nibbles": (2, 1), "rows": (8, 1)}
 #: Kinds of bus, by the name that a transport and a record give them.
-BUSES: Final = {"i2c": "I2C", "spi": "SPI"}
-_DEPTHS: Final = {"pages": 1, "nibbles": 4}
+BUSES: Final = {"i2c": "I2C", "i2c-pair": "I2C with data_address= of I2CTransport", "spi": "SPI"}
+_DEPTHS: Final = {"pages": 1, "nibbles": 4, "rows": 1}
+_PAUSE: Final = " ms"
 
 
-def commands(text: str) -> tuple[bytes, ...]:
-    """Read commands, each with its arguments, in hex and with commas in between.
+def commands(text: str) -> tuple[bytes | float, ...]:
+    """Read commands, each with its arguments, in hex and with commas in between; pauses in milliseconds among them.
 
     Examples
     --------
-    >>> commands("AE, D5 80")
-    (b'\\xae', b'\\xd5\\x80')
+    >>> commands("AE, D5 80, 50 ms")
+    (b'\\xae', b'\\xd5\\x80', 0.05)
     """
-    return tuple(map(bytes.fromhex, text.split(",")))
+    return tuple(
+        float(entry.removesuffix(_PAUSE)) / 1000 if entry.endswith(_PAUSE) else bytes.fromhex(entry)
+        for entry in text.split(",")
+    )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -41,6 +45,11 @@ class PagePointer:
         Command to which the column is added. Default: none, its halves are added to ``00`` and ``10``.
     paired : bool
         Whether row and column are always sent together, the row first. Default: False.
+    turns : bool
+        Whether data goes on from the last RAM column to the first of the next row, and from the last row to the first.
+        Default: False.
+    column_bytes : int
+        Bytes that share a column address. Default: 1.
 
     Examples
     --------
@@ -54,6 +63,8 @@ class PagePointer:
     row_argument: bool = False
     column: int | None = None
     paired: bool = False
+    turns: bool = False
+    column_bytes: int = 1
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -136,16 +147,22 @@ class Controller:
         The chip, in lower case.
     width, height : int
         Visible pixels.
-    init : tuple of bytes
+    init : tuple of bytes and float
         Commands, each with its arguments, that bring the chip from any state to a dark, configured one, in the mode of
-        the page pointer if it has one, else with windows filled across.
+        the page pointer if it has one, else with windows filled across. A number is a pause in seconds.
     ram_width, ram_height : int
         Pixels that the chip's RAM holds.
     column_offset, row_offset : int
         RAM column and row, in pixels, of the top-left visible pixel. Default: 0.
     packing : str
         How pixels share bytes: ``"pages"`` is eight rows of one bit a byte, the topmost in the lowest bit;
-        ``"nibbles"`` two pixels of four bits, the left one in the upper half. Default: ``"pages"``.
+        ``"nibbles"`` two pixels of four bits, the left one in the upper half; ``"rows"`` eight columns of one bit, the
+        left one in the highest bit. Default: ``"pages"``.
+    bands : int
+        How many bands of the picture, from the top, stand beside each other in the RAM. Default: 1.
+    mirror_x, mirror_y : bool
+        Whether the driver turns pictures over, for glass that is bonded the other way round where the chip cannot.
+        Default: False.
     pointer : PagePointer, optional
     window : Window, optional
         The ways to say where data goes; there is one or both. Default: the page pointer alone.
@@ -155,8 +172,10 @@ class Controller:
         Whether the chip takes I2C control bytes with the continuation bit well, clones included. Default: False.
     resync : bytes
         Commands that do nothing, enough of them to satisfy a command that was cut off before its arguments.
-    power_on, power_off, normal, inverse : bytes
+    power_on, power_off, normal : bytes
         Commands of those names.
+    inverse : bytes, optional
+        Command that shows lit pixels dark; None where the driver turns levels over. Default: ``A7``.
     contrast : Contrast, optional
         How it is told the brightness; None where it has none. Default: ``81`` and a byte.
     drive : tuple of tuple of bytes
@@ -164,18 +183,26 @@ class Controller:
     status_off : int
         Bit of the byte read from it on I2C that says that the display is off; 0 if that cannot be read. Default: bit 6.
     buses : tuple of str
-        What it can be on: ``"i2c"``, ``"spi"``. Default: both.
+        What it can be on: ``"i2c"``, ``"spi"``, or ``"i2c-pair"``, where data goes to an address of its own and there
+        are no control bytes. Default: the first two.
+    synced : bool
+        Whether the chip has no D/C pin, and bytes go as `transports.synced` has them. Default: False.
+    speed : int
+        Clock rate on SPI in Hz that the chip takes. Default: 8 000 000.
     """
 
     name: str
     width: int
     height: int
-    init: tuple[bytes, ...]
+    init: tuple[bytes | float, ...]
     ram_width: int
     ram_height: int
     column_offset: int = 0
     row_offset: int = 0
     packing: str = "pages"
+    bands: int = 1
+    mirror_x: bool = False
+    mirror_y: bool = False
     pointer: PagePointer | None = PagePointer()
     window: Window | None = None
     arguments_are_data: bool = False
@@ -184,19 +211,24 @@ class Controller:
     power_on: bytes = b"\xaf"
     power_off: bytes = b"\xae"
     normal: bytes = b"\xa6"
-    inverse: bytes = b"\xa7"
+    inverse: bytes | None = b"\xa7"
     contrast: Contrast | None = Contrast()
     drive: tuple[tuple[bytes, ...], ...] = ()
     status_off: int = 0x40
     buses: tuple[str, ...] = ("i2c", "spi")
+    synced: bool = False
+    speed: int = 8_000_000
 
     def __post_init__(self) -> None:
         if self.width < 1 or self.height < 1:
             raise ValueError(f"width and height must be positive, not {self.width}x{self.height}")
-        if self.column_offset < 0 or self.column_offset + self.width > self.ram_width:
-            raise ValueError(f"column_offset must be 0 to {self.ram_width - self.width}, not {self.column_offset}")
-        if self.row_offset < 0 or self.row_offset + self.height > self.ram_height:
-            raise ValueError(f"row_offset must be 0 to {self.ram_height - self.height}, not {self.row_offset}")
+        if self.bands < 1 or self.height % self.bands:
+            raise ValueError(f"bands must divide the height of {self.height}, not be {self.bands}")
+        width, height = self.width * self.bands, self.height // self.bands
+        if self.column_offset < 0 or self.column_offset + width > self.ram_width:
+            raise ValueError(f"column_offset must be 0 to {self.ram_width - width}, not {self.column_offset}")
+        if self.row_offset < 0 or self.row_offset + height > self.ram_height:
+            raise ValueError(f"row_offset must be 0 to {self.ram_height - height}, not {self.row_offset}")
         if not self.buses or not set(self.buses) <= set(BUSES):
             raise ValueError(f"buses must be some of {', '.join(BUSES)}, not {self.buses}")
         if self.packing not in PACKINGS:
@@ -220,4 +252,10 @@ class Controller:
     def cell(self) -> tuple[int, int]:
         """Width and height in pixels of what one address holds: the grid of pointers and windows."""
         wide, high = PACKINGS[self.packing]
-        return wide * (self.window.column_bytes if self.window else 1), high
+        return wide * self.cell_bytes, high
+
+    @property
+    def cell_bytes(self) -> int:
+        """Bytes of a cell."""
+        way = self.window or self.pointer
+        return way.column_bytes if way else 1

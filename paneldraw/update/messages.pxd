@@ -11,8 +11,8 @@ cdef class Writer:
     cdef unsigned char *new
     cdef unsigned char *old
     cdef bint known
-    cdef int cell_bytes, width, height, left, top, ram_width, most_pieces
-    cdef bint has_pointer, has_window, wraps, _paired
+    cdef int cell_bytes, width, height, left, top, ram_width, ram_height, most_pieces
+    cdef bint has_pointer, has_window, wraps, turns, _paired
     cdef int pointer_most, _row_command, _row_bytes, _column_command
     cdef tuple _modes
     cdef bytes _write
@@ -53,6 +53,7 @@ cdef class Writer:
     cdef void _pass(self, int count) noexcept
     cdef void _put(self, int count) noexcept
     cdef void _step(self) noexcept
+    cdef int following(self, int row) noexcept
     cdef void _message(self, int kind) noexcept
     cdef void _make_room(self) noexcept
     cdef void _byte(self, int byte) noexcept

@@ -40,22 +40,23 @@ class Writer:
         wide, high = controller.cell
         pointer, window = controller.pointer, controller.window
         self.left, self.top = controller.column_offset // wide, controller.row_offset // high
-        self.width, self.height = controller.width // wide, -(-controller.height // high)
-        self.ram_width = controller.ram_width // wide
+        self.width = controller.width * controller.bands // wide
+        self.height = -(-controller.height // (controller.bands * high))
+        self.ram_width, self.ram_height = controller.ram_width // wide, controller.ram_height // high
         self.has_pointer, self.has_window = pointer is not None, window is not None
         self.wraps = pointer is not None and pointer.wraps
         self._set_pointer(pointer if pointer is not None else PagePointer())
-        self.cell_bytes, self._columns, self._rows, self._write = 1, 0, 0, b""
+        self.cell_bytes, self._columns, self._rows, self._write = controller.cell_bytes, 0, 0, b""
         across = down = b""
         if window is not None:
-            self.cell_bytes, self._write = window.column_bytes, window.write
+            self._write = window.write
             self._columns, self._rows, across, down = window.columns, window.rows, window.across, window.down
         self._modes = (across, down, pointer.mode if pointer is not None else b"")
         self._arguments = _DATA if controller.arguments_are_data else _COMMAND
         self.command_cost, self.data_cost = cost.command, cost.data
         self.chained_cost = -1 if cost.chained is None or not controller.chained_control else cost.chained
         self._longest = _UNLIMITED if cost.longest is None else cost.longest
-        self._make_room_for(controller.width)
+        self._make_room_for(controller.width * controller.bands)
         self._rehearsing, self._kind, self._length, self._filling = False, -1, 0, False
         self.begin()
         self.forget()
@@ -63,6 +64,7 @@ class Writer:
     def _set_pointer(self, pointer):
         """Take in how the page pointer is moved."""
         self._row_command, self._row_bytes, self._paired = pointer.row, 1 + pointer.row_argument, pointer.paired
+        self.turns = pointer.turns
         self._column_command = -1 if pointer.column is None else pointer.column
         self.pointer_most = self._row_bytes + (2 if pointer.column is None else 1)
 
@@ -327,10 +329,16 @@ class Writer:
         chip.column += 1
         if chip.mode == PAGE:
             if chip.column == self.ram_width:
-                chip.column = 0 if self.wraps else -1
+                chip.column = 0 if self.wraps or self.turns else -1
+                if self.turns:
+                    chip.row = self.following(chip.row)
         elif chip.column == chip.right:
             chip.column = chip.left
             chip.row = chip.top if chip.row + 1 == chip.bottom else chip.row + 1
+
+    def following(self, row):
+        """The row after a row, where data turns."""
+        return row + 1 if row + 1 < self.ram_height else 0
 
     # -- Messages
 

@@ -101,7 +101,7 @@ class Planner:
         self._windows = Windows(w)
         self._order = Order()
         self.fresh = w.fresh
-        self._around = w.wraps and controller.width == controller.ram_width
+        self._around = w.wraps and w.width == w.ram_width
         pieces = w.most_pieces
         if cython.compiled:
             self._memory = bytearray(2 * pieces * cython.sizeof(cython.int))
@@ -299,7 +299,7 @@ class Planner:
                 w.doubt()
                 windows.write_plainly(i)
         else:
-            self._merge(self._jumps[w.pointer_most] if self._count <= _PLAIN else w.width)
+            self._merge(self._jumps[w.pointer_most] // w.cell_bytes if self._count <= _PLAIN else w.width)
             for i in range(self._count):
                 piece = cython.address(windows.pieces[i])
                 w.doubt()
@@ -327,6 +327,7 @@ class Planner:
         `room` bytes may be sent first to drive the pointer further; -1 stands for the start of a plan.
         """
         w = self._writer
+        size = w.cell_bytes
         to_row, to_column = self._windows.pieces[piece].row, self._windows.pieces[piece].left
         gap = to_column - column
         best: cython.int = _INFINITY
@@ -336,7 +337,7 @@ class Planner:
             if gap < 0 and self._around:
                 gap += w.width
             if gap >= 0:
-                best, self._bridge = gap + (self._jumps[0] if room < 0 else 0), gap
+                best, self._bridge = size * gap + (self._jumps[0] if room < 0 else 0), gap
         for late in range(min(max(room, 0), self._shifts) + 1):
             for early in range(self._shifts - late + 1):
                 first = to_column - early
@@ -344,7 +345,8 @@ class Planner:
                     if not self._around:
                         break
                     first += w.width
-                cost = self._jumps[w.pointer_bytes(row, self._after(column, late), to_row, first)] + late + early
+                cost = self._jumps[w.pointer_bytes(row, self._after(column, late), to_row, first)]
+                cost += size * (late + early)
                 if cost < best:
                     best, self._bridge, self._late, self._early = cost, -1, late, early
                     if cost <= self._jumps[1]:
@@ -356,9 +358,11 @@ class Planner:
     def _step_between(self, one: cython.int, other: cython.int) -> cython.int:
         """Bytes from the end of one piece to the start of another."""
         w = self._writer
-        stop = self._windows.pieces[one].right
-        room: cython.int = w.width if self._around else w.left + w.width - stop
-        return self._step(self._windows.pieces[one].row, self._after(stop, 0), room, other)
+        row, stop = self._windows.pieces[one].row, self._windows.pieces[one].right
+        if w.turns and stop == w.ram_width:
+            return self._step(w.following(row), 0, 0, other)
+        room: cython.int = w.width if self._around else max(w.left + w.width - stop - w.turns, 0)
+        return self._step(row, self._after(stop, 0), room, other)
 
     @cython.cfunc
     @cython.exceptval(check=False)
@@ -376,11 +380,11 @@ class Planner:
     @cython.exceptval(check=False)
     def _solve(self) -> cython.int:
         """Put the pieces into the best order there is time to find; return the bytes of the path."""
-        order = self._order
+        order, w = self._order, self._writer
         if self._count > EXACT:
             self._merge(1)
         if self._count > IMPROVED:
-            self._merge(self._jumps[1])
+            self._merge(self._jumps[1] // w.cell_bytes)
         for i in range(self._count):
             self._path[i] = i
         if 1 < self._count <= IMPROVED:
@@ -401,7 +405,7 @@ class Planner:
         for turn in range(count):
             piece = path[turn]
             cost += self._first_step(piece) if turn == 0 else self._step_between(path[turn - 1], piece)
-            cost += self._windows.pieces[piece].right - self._windows.pieces[piece].left
+            cost += self._writer.cell_bytes * (self._windows.pieces[piece].right - self._windows.pieces[piece].left)
         return cost
 
     @cython.cfunc
