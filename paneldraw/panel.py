@@ -24,7 +24,8 @@ from paneldraw.framebuffer import Framebuffer, pictures
 from paneldraw.leaving import arrange, follow
 from paneldraw.pacing import Frames
 from paneldraw.sender import Sender
-from paneldraw.transports import I2CTransport, SerialTransport, SPITransport, Transport
+from paneldraw.transports import I2CTransport, Plan, SerialTransport, SPITransport, Transport
+from paneldraw.transports.synced import SyncedTransport
 from paneldraw.update import Planner
 
 Levels = npt.NDArray[np.uint8]
@@ -34,7 +35,7 @@ Updates = Literal["least", "plain", "whole"]
 
 _ON_CLOSE: Final = ("keep", "clear", "off")
 _ROTATIONS: Final = (0, 90, 180, 270)
-_WIRING: Final = ("column_offset", "first_com", "com_pins")
+_WIRING: Final = ("column_offset", "first_com", "com_pins", "duty")
 """What a simulated module is wired with, beside a driver that believes it."""
 _RETRIES: Final = 6
 _PATIENCE: Final = 0.02
@@ -200,8 +201,10 @@ class Panel:
         self._foreign = 0  # the process that the panel belongs to, in a forked child
         self._sender: Sender | None = None
         self._refresh = refresh
-        self._planner = Planner(controller, transport.cost, updates)
-        self._pack = PACK[controller.packing]
+        self._wire = SyncedTransport(transport) if controller.synced else transport
+        self._planner = Planner(controller, self._wire.cost, updates)
+        able = controller.inverse is not None and not (controller.mirror_x or controller.mirror_y)
+        self._pack = PACK[controller.packing] if able and controller.bands == 1 else None
         self._contrast = None if contrast is None else _checked_contrast(controller, contrast)
         self._drive: tuple[bytes, ...] = ()
         self._kept: list[bytes] = []
@@ -439,8 +442,7 @@ class Panel:
 
     def invert(self, inverted: bool = True) -> None:
         """Show lit pixels dark and dark ones lit, or with False as they are."""
-        self._inverted = bool(inverted)
-        self._change(lambda: (self.controller.inverse if self._inverted else self.controller.normal,))
+        self._change(lambda: self._inversion(bool(inverted)))
 
     def sleep(self) -> None:
         """Turn the panel dark. It keeps its picture, takes new ones, and needs next to no power."""
@@ -556,6 +558,14 @@ class Panel:
             return pixels[::-1, ::-1]
         return pixels[::-1].T if self._rotate == 90 else pixels[:, ::-1].T
 
+    def _arranged(self, pixels: Levels, max_level: int, packed: Levels) -> None:
+        """Pack levels for a chip that cannot mirror or invert, or has bands of the picture beside each other."""
+        chip = self.controller
+        pixels = pixels[:: -1 if chip.mirror_y else 1, :: -1 if chip.mirror_x else 1]
+        PACK[chip.packing](np.hstack(np.split(pixels, chip.bands)), max_level, packed)
+        if self._inverted and chip.inverse is None:
+            np.invert(packed, out=packed)
+
     # -- One call at a time
 
     def _postponed(self, operation: Callable[[], object]) -> bool:
@@ -600,7 +610,7 @@ class Panel:
     def _show_now(self, pixels: Levels, max_level: int, force: bool, started: float) -> Report:
         if self._closed or self._foreign:
             self._check()
-        self._pack(self._upright(pixels), max_level, self._planner.fresh)
+        (self._pack or self._arranged)(self._upright(pixels), max_level, self._planner.fresh)
         if (
             force
             or (self._watched and started - self._looked > _LOOK and not self._alive(started))
@@ -663,10 +673,11 @@ class Panel:
     def _start(self) -> Sent:
         """Bring the chip from any state to a dark, configured one."""
         chip = self.controller
-        commands = [*chip.init, *([chip.inverse] if self._inverted else ()), *self._brightness(), *self._kept]
         if self._started:
             self.stats.restarts += 1
         self._lit = self._watched = False
+        inverse = [chip.inverse] if self._inverted and chip.inverse else []
+        commands = [*chip.init, *inverse, *self._brightness(), *self._kept]
         self.transport.reset()
         sent = self._command(*([chip.resync] if chip.resync else ()), *commands)
         self._planner.restart()
@@ -680,11 +691,8 @@ class Panel:
         ready, self._ready = self._ready, False
         if not ready:
             wire, messages = self._start()
-        plan = self._planner.plan()
-        if plan.count:
-            wire += self.transport.batch(plan)
-            self._planner.sent()
-            self._shown = True
+        plan, sent = self._bring()
+        wire += sent
         if not (self._lit or self._asleep):
             power_on = self._command(self.controller.power_on)
             wire, messages = wire + power_on.wire_bytes, messages + power_on.messages
@@ -696,17 +704,33 @@ class Panel:
             self._asked = _NOTHING
         return wire, messages + plan.count, plan.changed
 
-    def _command(self, *commands: bytes) -> Sent:
-        """Send commands, each with its arguments."""
+    def _bring(self) -> tuple[Plan, int]:
+        """Bring the fresh frame into the chip's RAM; return the plan, and the bytes on the wire."""
+        plan, wire = self._planner.plan(), 0
+        if plan.count:
+            wire = self._wire.batch(plan)
+            self._planner.sent()
+            self._shown = True
+        return plan, wire
+
+    def _command(self, *commands: bytes | float) -> Sent:
+        """Send commands, each with its arguments, and make the pauses among them."""
         wire = messages = 0
-        if self.controller.arguments_are_data:
-            for command in commands:
-                wire += self.transport.command(command[:1])
+        waiting = b""
+        for command in commands:
+            if isinstance(command, float):
+                if waiting:
+                    wire, messages, waiting = wire + self._wire.command(waiting), messages + 1, b""
+                time.sleep(command)
+            elif self.controller.arguments_are_data:
+                wire += self._wire.command(command[:1])
                 if len(command) > 1:
-                    wire += self.transport.data(command[1:])
+                    wire += self._wire.data(command[1:])
                 messages += 1 + (len(command) > 1)
-        elif commands:
-            wire, messages = self.transport.command(b"".join(commands)), 1
+            else:
+                waiting += command
+        if waiting:
+            wire, messages = wire + self._wire.command(waiting), messages + 1
         return Sent(wire, messages)
 
     def _status(self) -> int | None:
@@ -729,7 +753,20 @@ class Panel:
         """Commands for what was asked for; none where init's brightness is to stay."""
         if self._contrast is None or self.controller.contrast is None:
             return ()
-        return *self.controller.contrast.commands(self._contrast), *self._drive
+        # What brackets the command may light the chip.
+        dark = () if self._lit or not self.controller.contrast.after else (self.controller.power_off,)
+        return *self.controller.contrast.commands(self._contrast), *dark, *self._drive
+
+    def _inversion(self, inverted: bool) -> tuple[bytes, ...]:
+        """Note which levels are lit; return the command for it, or send the picture turned over."""
+        chip, before, self._inverted = self.controller, self._inverted, inverted
+        if chip.inverse is not None:
+            return (chip.inverse if inverted else chip.normal,)
+        if before != inverted:
+            np.invert(self._planner.fresh, out=self._planner.fresh)
+            if self._shown:
+                self._bring()
+        return ()
 
     def _power(self) -> tuple[bytes, ...]:
         """The command for light or none; there is no light before the first picture."""
@@ -791,7 +828,8 @@ def _check_on_close(value: str) -> None:
 
 def _checked_contrast(controller: Controller, level: int) -> int:
     if controller.contrast is None:
-        raise ValueError(f"contrast cannot be set: the {controller.name} has no command for it")
+        able = ", ".join(name for name, chip in CHIPS.items() if chip.contrast)
+        raise ValueError(f"contrast cannot be set: the {controller.name} has no command for it; there is one on {able}")
     level = operator.index(level)
     if not 0 <= level <= 255:
         raise ValueError(f"contrast must be 0 to 255, not {level!r}")
@@ -887,5 +925,6 @@ def _simulated(wanted: urls.PanelURL) -> tuple[Transport, Any]:
     chip = getattr(simulator, controller.name.upper())(controller.width, controller.height, **wiring)
     if "i2c" in controller.buses:
         return I2CTransport(simulator.I2CBus({wanted.address: chip}), wanted.address), chip
-    bus = simulator.SPIBus(chip)
-    return SPITransport(spi=bus.spi, pins=bus.pins), chip
+    bus = simulator.SPIBus(chip, dc=None if controller.synced else 24)
+    bus.spi.cshigh = controller.synced
+    return SPITransport(spi=bus.spi, pins=bus.pins, dc=bus.dc), chip

@@ -158,13 +158,16 @@ def _i2c(parts: SplitResult) -> PanelURL:
     if not place or "/" in address:
         raise ValueError(f"url must have the form {_FORMS['i2c']}, not {parts.geturl()!r}")
     place, mux = _multiplexer(place)
+    controller = _controller(query.get("chip", _CHIP), query)
+    number = _address(address) if address else _ADDRESS
+    paired = {"data_address": number + 1} if "i2c-pair" in controller.buses else {}
     return PanelURL(
         "i2c",
-        _on("i2c", _controller(query.get("chip", _CHIP), query)),
+        controller if paired else _on("i2c", controller),
         bus=int(place) if place.isdecimal() else place,
-        address=_address(address) if address else _ADDRESS,
+        address=number,
         module=_module(query),
-        transport=mux | _settings(query, {"max_message": "32"}) | _lines(query, *lines),
+        transport=mux | paired | _settings(query, {"max_message": "32"}) | _lines(query, *lines),
         panel=_settings(query, _PANEL),
     )
 
@@ -191,12 +194,15 @@ def _spi(parts: SplitResult) -> PanelURL:
     bus, _, device = parts.netloc.partition(".")
     if not (bus.isdecimal() and device.isdecimal()) or parts.path.strip("/"):
         raise ValueError(f"url must have the form {_FORMS['spi']}, not {parts.geturl()!r}")
+    controller = _on("spi", _controller(query.get("chip", _CHIP), query))
+    of_chip = {"speed": controller.speed} | ({"dc": None, "cs_high": True} if controller.synced else {})
+    said = _settings(query, {"speed": "8000000"}) | _lines(query, *lines)
     return PanelURL(
         "spi",
-        _on("spi", _controller(query.get("chip", _CHIP), query)),
+        controller,
         bus=int(bus),
         module=_module(query),
-        transport={"device": int(device)} | _settings(query, {"speed": "8000000"}) | _lines(query, *lines),
+        transport={"device": int(device)} | of_chip | said,
         panel=_settings(query, _PANEL),
     )
 

@@ -2,15 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import Any, Final
 
-from paneldraw.controllers.record import Contrast, Controller, PagePointer, Window, commands
+from paneldraw.controllers.record import Contrast, Controller, PagePointer, Window, commands, only_commands
 
 Size = tuple[int, int]
 _NOTHING: Final[Mapping[str, Any]] = MappingProxyType({})
+_CHOICES: Final[Mapping[str, Sequence[int]]] = MappingProxyType(
+    {
+        "com_pins": (0x02, 0x12, 0x22, 0x32),
+        "bias": range(4, 12),
+        "resistor_ratio": range(8),
+        "duty": (33, 49, 53, 55, 65),
+    }
+)
+"""What overrides can be on any chip."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -26,6 +35,11 @@ class Module:
     clock: int = 0x80
     charge_pump: bool = True
     internal_reference: bool = False
+    bias: int = 0
+    resistor_ratio: int = 0
+    duty: int = 65
+    level: int = 0
+    turned: bool = False
     mirror_x: bool = False
     mirror_y: bool = False
 
@@ -37,11 +51,11 @@ class Module:
     @property
     def segments(self) -> str:
         """Command that maps columns to segments, in hex."""
-        return f"{self.chip.upright[0] ^ self.mirror_x:02X}"
+        return f"{self.chip.upright[0] ^ self.mirror_x ^ self.turned:02X}"
 
     @property
     def _lines(self) -> int:
-        return self.chip.upright[1] ^ 8 * self.mirror_y
+        return self.chip.upright[1] ^ 8 * (self.mirror_y ^ self.turned)
 
     @property
     def lines(self) -> str:
@@ -59,6 +73,12 @@ class Module:
         """Display offset that brings the first row of the RAM to the glass's first line, in hex."""
         upwards = bool(self._lines & 8) if not self.chip.remap[0] else bool(self.remap & self.chip.remap[2])
         return f"{(self.first_com if upwards else -self.first_com) % self.chip.ram[1]:02X}"
+
+    @property
+    def start_line(self) -> str:
+        """Command of the row that the first COM line shows, of chips without a display offset, in hex."""
+        last = max(self.duty - 1 - self.first_com - self.height, 0)
+        return f"{0x40 + -(last if self._lines & 8 else self.first_com) % 64:02X}"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -79,6 +99,13 @@ class Chip:
         Makes of a `Module` the commands that configure it, as `record.commands` reads them.
     overrides : tuple of str
         What a module's wiring may differ in, beside ``column_offset``, ``mirror_x`` and ``mirror_y``.
+    choices : mapping of str
+        What an override can be, where this chip has less than others.
+    mirrors : bool
+        Whether the chip turns columns and lines over; else the driver does. Default: True.
+    fold : int
+        Rows that fit beneath each other; of a picture twice as high the lower half stands beside the upper one in the
+        RAM. Default: all of the RAM's.
     upright : (int, int)
         The commands for segments and lines under which the common module is upright. Default: ``A1 C8``.
     remap : (int, int, int)
@@ -106,6 +133,9 @@ class Chip:
     modules: Mapping[Size, Mapping[str, Any]]
     init: Callable[[Module], str]
     overrides: tuple[str, ...] = ()
+    choices: Mapping[str, Sequence[int]] = field(default_factory=dict)
+    mirrors: bool = True
+    fold: int = 1 << 10
     upright: tuple[int, int] = (0xA1, 0xC8)
     remap: tuple[int, int, int] = (0, 0, 0)
     window: Callable[[Module], Window] | None = None
@@ -140,6 +170,9 @@ class Chip:
         com_pins: int | None = None,
         charge_pump: bool | None = None,
         internal_reference: bool | None = None,
+        bias: int | None = None,
+        resistor_ratio: int | None = None,
+        duty: int | None = None,
         mirror_x: bool = False,
         mirror_y: bool = False,
         chained_control: bool = False,
@@ -163,6 +196,13 @@ class Chip:
         internal_reference : bool, optional
             Send ``AD 30``, without which modules with no resistor for the current are dim. Default: what modules of
             this size need.
+        bias : int, optional
+            LCD: 9 for a bias of 1/9, and so on. Default: what modules of this size need.
+        resistor_ratio : int, optional
+            LCD: step of the voltage regulator, 0 to 7, of which contrast is the fine part. Default: what modules of
+            this size need.
+        duty : int, optional
+            LCD: the duty that the module's pins choose, 65, 55, 53, 49 or 33. Default: what modules of this size have.
         mirror_x, mirror_y : bool, optional
             For glass that is bonded the other way round. Default: False, the common module.
         chained_control : bool, optional
@@ -185,6 +225,9 @@ class Chip:
             "com_pins": com_pins,
             "charge_pump": charge_pump,
             "internal_reference": internal_reference,
+            "bias": bias,
+            "resistor_ratio": resistor_ratio,
+            "duty": duty,
         }
         given = {name: value for name, value in given.items() if value is not None}
         self._check(size, given)
@@ -199,13 +242,18 @@ class Chip:
             init=commands(self.init(module)),
             ram_width=self.ram[0],
             ram_height=self.ram[1],
-            column_offset=self.ram[0] - module.width - module.column_offset if mirror_x else module.column_offset,
+            column_offset=self.ram[0] - module.width - module.column_offset
+            if mirror_x and self.mirrors
+            else module.column_offset,
+            bands=2 if module.height > self.fold else 1,
+            mirror_x=mirror_x and not self.mirrors,
+            mirror_y=mirror_y and not self.mirrors,
             pointer=self.pointer,
             window=self.window(module) if self.window else None,
             chained_control=chained_control,
             buses=self.buses,
             contrast=self.contrast,
-            drive=tuple(map(commands, self.drive(module))) if self.drive else (),
+            drive=tuple(only_commands(text) for text in self.drive(module)) if self.drive else (),
             **self.facts,
         )
 
@@ -224,7 +272,8 @@ class Chip:
     def _check(self, size: Size, given: Mapping[str, Any]) -> None:
         """Refuse what the chip cannot have, and a size of which too little is known."""
         width, height = size
-        if not (1 <= width <= self.ram[0] and 1 <= height <= self.ram[1]):
+        fits = 1 <= width <= self.ram[0] and 1 <= height <= self.ram[1]
+        if not fits and size not in self.modules:
             most = f"{self.ram[0]}x{self.ram[1]}, which its RAM holds"
             raise ValueError(f"size of the {self.name} must be 1x1 to {most}, not {width}x{height}")
         for name in given:
@@ -241,8 +290,10 @@ class Chip:
             raise ValueError(f"column_offset must be 0 to {self.ram[0] - width}, not {offset}")
         if not 0 <= given.get("first_com", 0) < self.ram[1]:
             raise ValueError(f"first_com must be 0 to {self.ram[1] - 1}, not {given['first_com']}")
-        if given.get("com_pins", 0x12) not in (0x02, 0x12, 0x22, 0x32):
-            raise ValueError(f"com_pins must be 0x02, 0x12, 0x22 or 0x32, not {given['com_pins']!r}")
+        for name, allowed in {**_CHOICES, **self.choices}.items():
+            if given.get(name, allowed[0]) not in allowed:
+                listed = _listed(f"{value:#04x}" if name == "com_pins" else str(value) for value in allowed)
+                raise ValueError(f"{name} of the {self.name} must be {listed}, not {given[name]!r}")
 
 
 def _listed(names: Any) -> str:

@@ -105,7 +105,7 @@ def pack_rows(levels: Any, max_level: cython.int, packed: Any) -> None:
     for y in range(target.height):
         at, first = y * source.down, y * width
         for x in range(first, first + width):
-            byte = 0
+            byte: cython.int = 0
             for _ in range(8):
                 byte = byte << 1 | (pixels[at] > threshold)
                 at += step

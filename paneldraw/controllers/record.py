@@ -13,8 +13,19 @@ _DEPTHS: Final = {"pages": 1, "nibbles": 4, "rows": 1}
 _PAUSE: Final = " ms"
 
 
+def only_commands(text: str) -> tuple[bytes, ...]:
+    """Read commands, each with its arguments, in hex and with commas in between.
+
+    Examples
+    --------
+    >>> only_commands("AE, D5 80")
+    (b'\\xae', b'\\xd5\\x80')
+    """
+    return tuple(map(bytes.fromhex, text.split(",")))
+
+
 def commands(text: str) -> tuple[bytes | float, ...]:
-    """Read commands, each with its arguments, in hex and with commas in between; pauses in milliseconds among them.
+    """Read commands, as `only_commands` does, and pauses in milliseconds among them, which become seconds.
 
     Examples
     --------

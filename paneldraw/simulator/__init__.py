@@ -6,17 +6,20 @@ from typing import TYPE_CHECKING
 
 from .bus import I2CBus, Multiplexer
 from .frames import Frame
+from .lcd import PCD8544, ST7565, ST7567, UC1609, UC1701
 from .recorder import Look, contact_sheet, image, save
 from .sh110x import SH1106, SH1107
 from .spi import SPIBus
 from .ssd130x import SSD1306, SSD1309, SSD1315, SSD1316
 from .ssd132x import SSD1322, SSD1327
+from .st7920 import ST7920
 from .terminal import TerminalView, text
 
 if TYPE_CHECKING:
     from .web import serve
 
 __all__ = [
+    "PCD8544",
     "SH1106",
     "SH1107",
     "SSD1306",
@@ -25,6 +28,11 @@ __all__ = [
     "SSD1316",
     "SSD1322",
     "SSD1327",
+    "ST7565",
+    "ST7567",
+    "ST7920",
+    "UC1609",
+    "UC1701",
     "Frame",
     "I2CBus",
     "Look",

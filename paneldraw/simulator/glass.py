@@ -96,6 +96,10 @@ class Glass:
         seen = levels[self._segments, rows] if self._transposed else levels[rows, self._segments]
         return np.array(seen, order="C"), dark
 
+    def dots(self, levels: Picture) -> Picture:
+        """Bring levels of lines that are not scanned, such as icons, onto the glass."""
+        return levels[:, self._segments]
+
     def _rows(self, count: int, chip: Scan) -> tuple[slice | NDArray[np.intp], NDArray[np.bool_] | None]:
         multiplex, offset, start_line, com_reversed, setting = chip.scan
         signals = chip.com_signals(setting)[self._pads]

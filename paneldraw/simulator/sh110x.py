@@ -20,11 +20,13 @@ def _converter(chip: Any, sent: bytes) -> None:
     chip.registers.converter = sent[1]
 
 
-def _modify(chip: Any, sent: bytes) -> None:
+def modify(chip: Any, sent: bytes) -> None:
+    """Begin a read-modify-write: note where."""
     chip.registers.kept_column = chip.registers.column
 
 
-def _end_modify(chip: Any, sent: bytes) -> None:
+def end_modify(chip: Any, sent: bytes) -> None:
+    """End a read-modify-write where it began."""
     if chip.registers.kept_column is None:
         chip.remark("the end of a read-modify-write that was not begun (E0)", sent)
     else:
@@ -39,8 +41,8 @@ SINO_WEALTH: Commands = {
     0x81: setting("contrast", 0x80),
     0xAD: Command(1, _converter, {"converter": 0x8B}),
     0xDB: setting("vcomh", 0x35),
-    0xE0: Command(0, _modify, {"kept_column": None}),
-    0xEE: Command(0, _end_modify, {"kept_column": None}),
+    0xE0: Command(0, modify, {"kept_column": None}),
+    0xEE: Command(0, end_modify, {"kept_column": None}),
 }
 
 

@@ -191,7 +191,8 @@ class SPIBus(Wire):
                 raise os_error(fault.errno)
 
     def _shift(self, run: bytes | None) -> None:
-        listening = not self._level(self.cs) if self.cs is not None else not self.spi.cshigh
+        selected = self._level(self.cs) if self.cs is not None else self.spi.cshigh
+        listening = selected == getattr(self.chips[0], "cs_high", False) if self.chips else False
         if not run or not listening or (self.reset is not None and not self._level(self.reset)):
             return
         data = self.dc is not None and self._level(self.dc)
@@ -292,7 +293,7 @@ class SpiDev:
 
     @property
     def cshigh(self) -> bool:
-        """Whether the chip select is active high, which no panel here listens to."""
+        """Whether the chip select is active high, as the ST7920's is, and no other's."""
         return self._cshigh
 
     @cshigh.setter

@@ -58,6 +58,9 @@ class I2CTransport:
         kernel's own limit.
     mux : (int, int), optional
         Address and channel of a multiplexer, such as a TCA9548A, behind which the panel is. Default: none.
+    data_address : int, optional
+        Where data goes to chips that have two addresses and no control bytes: the UC1609's is the one after `address`.
+        Default: none, data goes to `address`.
     reset : int or str, optional
         GPIO line of the module's reset pin, which is pulsed here and by `reset`: a number on the header's chip (BCM's,
         not the pin's) or the line's name. Default: none, as most modules reset themselves; 2.42-inch ones do not.
@@ -79,8 +82,6 @@ class I2CTransport:
     3
     """
 
-    wire = "i2c"
-
     def __init__(
         self,
         bus: Any = 1,
@@ -88,14 +89,19 @@ class I2CTransport:
         *,
         max_message: int = BYTES_A_MESSAGE,
         mux: tuple[int, int] | None = None,
+        data_address: int | None = None,
         reset: Line | None = None,
         pins: Pins | None = None,
         gpiochip: int | str | None = None,
     ) -> None:
         _check_address("address", address)
+        if data_address is not None:
+            _check_address("data_address", data_address)
         if not 2 <= max_message <= BYTES_A_MESSAGE:
             raise ValueError(f"max_message must be 2 to {BYTES_A_MESSAGE}, not {max_message}")
-        self.address = address
+        self.address, self.data_address = address, data_address
+        self.wire = "i2c" if data_address is None else "i2c-pair"
+        self._framing = _FRAMING if data_address is None else 1
         self._smbus2 = _smbus2()
         self._owned = isinstance(bus, (int, str, os.PathLike)) and not isinstance(bus, bool)
         if not self._owned and not callable(getattr(bus, "i2c_rdwr", None)):
@@ -114,7 +120,7 @@ class I2CTransport:
         functions = int(getattr(self.bus, "funcs", 0))
         self._blocks = functions != 0 and not functions & _I2C
         self._limit(min(max_message, _BLOCK) if self._blocks else max_message)
-        self._messages = _Messages(self._smbus2.i2c_msg, address)
+        self._messages = _Messages(self._smbus2.i2c_msg, address, data_address)
 
     def command(self, payload: bytes) -> int:
         """Send one command message; return the bytes on the wire."""
@@ -145,7 +151,7 @@ class I2CTransport:
     def read_status(self) -> tuple[int, int]:
         """Read the panel's status byte; return it, and the bytes on the wire."""
         if self._blocks:
-            return int(self._block(self.bus.read_byte)), _FRAMING
+            return int(self._block(self.bus.read_byte, self.address)), _FRAMING
         message = self._smbus2.i2c_msg.read(self.address, 1)
         extra = self._send([message])
         return int(bytes(message)[0]), _FRAMING + extra
@@ -167,8 +173,8 @@ class I2CTransport:
     def _limit(self, max_message: int) -> None:
         """Take messages of so many bytes for the longest."""
         self.max_message = max_message
-        chained = _FRAMING if max_message == BYTES_A_MESSAGE else None  # a chained message cannot be split
-        self.cost = Cost(_FRAMING, _FRAMING, chained, max_message - 1)
+        whole = max_message == BYTES_A_MESSAGE and self.data_address is None  # a chained message cannot be split
+        self.cost = Cost(self._framing, self._framing, _FRAMING if whole else None, max_message - 1)
 
     def _shorten(self, length: int) -> None:
         """Know that a message of so many bytes is more than the adapter takes."""
@@ -205,11 +211,14 @@ class I2CTransport:
 
     def _piece(self, kind: int, payload: bytes | memoryview) -> int:
         """Send one message; return the bytes on the wire."""
+        address, control = self.address, bytes((kind,))
+        if self.data_address is not None:
+            address, control = self.data_address if kind == DATA else address, b""
+        message = control + payload
         if self._blocks:
-            self._block(self.bus.write_i2c_block_data, kind, list(payload))
-            return _FRAMING + len(payload)
-        message = self._smbus2.i2c_msg.write(self.address, bytes((kind,)) + payload)
-        return self._send([message]) + _FRAMING + len(payload)
+            self._block(self.bus.write_i2c_block_data, address, message[0], list(message[1:]))
+            return self._framing + len(payload)
+        return self._send([self._smbus2.i2c_msg.write(address, message)]) + self._framing + len(payload)
 
     def _send(self, messages: list[Any]) -> int:
         """Send messages in one call; return the bytes that this cost beside them."""
@@ -230,7 +239,7 @@ class I2CTransport:
     def _block(self, transfer: Callable[..., Any], *arguments: Any) -> Any:
         """Do a transfer of SMBus."""
         try:
-            answer = transfer(self.address, *arguments)
+            answer = transfer(*arguments)
         except (OSError, TypeError) as error:
             raise self._failure(error) from error
         self._answered = True
@@ -351,9 +360,9 @@ class _Lock:
 class _Messages:
     """smbus2 messages made once; their length and address are written into their memory for each plan."""
 
-    def __init__(self, message: Any, address: int) -> None:
+    def __init__(self, message: Any, address: int, data_address: int | None) -> None:
         self._message = message
-        self._address = address
+        self._address, self._data_address = address, data_address
         self._keep: npt.NDArray[Any] = np.empty(0)
         self._pool: list[Any] = []
         self._grow(MESSAGES_A_CALL)
@@ -370,7 +379,7 @@ class _Messages:
         fields: npt.NDArray[Any] = np.zeros(count, np.dtype(layout))  # type: ignore[call-overload]
         fields["addr"] = self._address
         self._keep = fields
-        self._lengths, self._addresses = fields["len"].data, fields["buf"].data
+        self._lengths, self._addresses, self._chips = fields["len"].data, fields["buf"].data, fields["addr"].data
         self._pool = [message.from_buffer(fields, index * fields.itemsize) for index in range(count)]
 
     def of(self, plan: Plan) -> list[Any]:
@@ -384,7 +393,17 @@ class _Messages:
             start = starts[index]
             lengths[index] = stops[index] - start
             addresses[index] = buffer + start
+        if self._data_address is not None:
+            self._address_apart(plan, self._data_address)
         return self._pool[:count]
+
+    def _address_apart(self, plan: Plan, data_address: int) -> None:
+        """Leave the control byte out of each message, and let the address say what it is."""
+        kinds = plan.buffer.data
+        for index in range(plan.count):
+            self._chips[index] = data_address if kinds[plan.starts[index]] == DATA else self._address
+            self._lengths[index] -= 1
+            self._addresses[index] += 1
 
 
 def _smbus2() -> ModuleType:

@@ -40,6 +40,8 @@ class SPITransport:
         The same of the reset pin, which is pulsed here and by `reset`. Default: 25, pin 22.
     speed : int, optional
         Clock rate in Hz. Default: 8 000 000, which all chips take but the slowest (PCD8544: 4 000 000).
+    cs_high : bool, optional
+        Whether the chip select is high while the chip listens, as the ST7920's is. Default: False.
     spi : object, optional
         An open object with the interface of ``spidev.SpiDev``, which remains the caller's to set up and to close.
     pins : object, optional
@@ -72,6 +74,7 @@ class SPITransport:
         dc: Line | None = 24,
         reset: Line | None = 25,
         speed: int = 8_000_000,
+        cs_high: bool = False,
         spi: Any = None,
         pins: Pins | None = None,
         gpiochip: int | str | None = None,
@@ -82,7 +85,7 @@ class SPITransport:
             if value < least:
                 raise ValueError(f"{name} must be {least} or more, not {value}")
         self.name = f"/dev/spidev{bus}.{device}" if spi is None else type(spi).__name__
-        self.speed = speed
+        self.speed, self.cs_high = speed, cs_high
         self._longest = _bufsiz() if dc is None else None
         self.cost = Cost(0, 0, longest=self._longest)
         self.spi = self._open(bus, device) if spi is None else spi
@@ -147,6 +150,8 @@ class SPITransport:
             if spi.mode != 0:
                 spi.mode = 0
             spi.max_speed_hz = self.speed
+            if self.cs_high:
+                spi.cshigh = True
         except OSError as error:
             spi.close()
             raise self._not_opened(error) from error

@@ -126,7 +126,7 @@ def test_records_are_immutable_and_hashable():
         {"row_offset": 4},
         {"buses": ("parallel",)},
         {"row_offset": 8},
-        {"packing": "rows"},
+        {"packing": "diagonals"},
         {"pointer": None, "window": None},
         {"packing": "nibbles", "width": 127},
     ],
