@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import errno
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -12,7 +13,7 @@ from paneldraw.controllers import CHIPS
 from paneldraw.errors import PanelDisconnectedError, PanelError, PanelTimeoutError
 from paneldraw.transports import I2CTransport
 
-ON_I2C = [name for name, make in CHIPS.items() if not make().arguments_are_data]
+ON_I2C = [name for name, make in CHIPS.items() if "i2c" in make.buses]
 
 
 class Bus:
@@ -49,6 +50,7 @@ def pictures(controller):
 def shown(name):
     """A panel that shows the first picture, its chip and its bus."""
     controller = CHIPS[name]()
+    controller = replace(controller, init=tuple(entry for entry in controller.init if isinstance(entry, bytes)))
     chip = getattr(simulator, name.upper())(history=1)
     bus = Bus(chip)
     panel = Panel(controller, I2CTransport(bus))

@@ -10,7 +10,8 @@ from typing import Any, Final
 from paneldraw.controllers.record import Contrast, Controller, PagePointer, Window, commands, only_commands
 
 Size = tuple[int, int]
-_NOTHING: Final[Mapping[str, Any]] = MappingProxyType({})
+_ELECTRICAL: Final = ("bias", "resistor_ratio", "level")
+"""What a module of an unknown size has in common with the first of the sizes known."""
 _CHOICES: Final[Mapping[str, Sequence[int]]] = MappingProxyType(
     {
         "com_pins": (0x02, 0x12, 0x22, 0x32),
@@ -231,7 +232,8 @@ class Chip:
         }
         given = {name: value for name, value in given.items() if value is not None}
         self._check(size, given)
-        known = self.modules.get(size, _NOTHING)
+        usual = self.modules[self.sizes[0]]
+        known = self.modules.get(size) or {name: usual[name] for name in _ELECTRICAL if name in usual}
         module = Module(
             chip=self, width=size[0], height=size[1], mirror_x=mirror_x, mirror_y=mirror_y, **{**known, **given}
         )
