@@ -22,7 +22,10 @@ FORMS = {
     "a row as argument": PagePointer(row_argument=True),
     "one command": PagePointer(row=0x40, column=0x80, wraps=True),
     "pairs": PagePointer(row=0x80, column=0x80, paired=True),
+    "one after the other": PagePointer(row=0x40, column=0x80, turns=True),
 }
+#: Width, height and left edge of the glass, in a RAM of 120 x 64.
+GLASS = [(60, 32, 20), (120, 32, 0), (120, 64, 0)]
 
 
 class PointedRam:
@@ -75,8 +78,9 @@ class PointedRam:
         for byte in payload:
             self.bytes[self.row, self.column] = byte
             self.column += 1
-            if self.column == self.bytes.shape[1] and self.pointer.wraps:
+            if self.column == self.bytes.shape[1] and (self.pointer.wraps or self.pointer.turns):
                 self.column = 0
+                self.row = (self.row + self.pointer.turns) % len(self.bytes)
         if self.forgets:
             self.row = self.column = None
 
@@ -94,22 +98,34 @@ def frames(draw, shape, count=6):
     yield ~frame
 
 
-@given(data=st.data(), form=st.sampled_from(sorted(FORMS)), cost=st.sampled_from([I2C, SPI]))
-def test_every_form_of_pointer_is_followed(package, data, form, cost):
+@given(
+    data=st.data(), form=st.sampled_from(sorted(FORMS)), cost=st.sampled_from([I2C, SPI]), glass=st.sampled_from(GLASS)
+)
+def test_every_form_of_pointer_is_followed(package, data, form, cost, glass):
     chained = data.draw(st.booleans())
-    controller = replace(SH1106(), width=60, height=32, column_offset=20, pointer=FORMS[form], chained_control=chained)
+    (width, height, left), rows = glass, glass[1] // 8
+    controller = replace(
+        SH1106(),
+        width=width,
+        height=height,
+        ram_width=120,
+        column_offset=left,
+        pointer=FORMS[form],
+        chained_control=chained,
+    )
     planner, ram = importlib.import_module("paneldraw.update").Planner(controller, cost), PointedRam(controller)
     planner.restart()
-    for frame in frames(data.draw, (4, 60)):
+    for frame in frames(data.draw, (rows, width)):
         planner.fresh[:] = frame
         for kind, payload in planner.plan():
             ram.take(kind, bytes(payload))
         planner.sent()
-        np.testing.assert_array_equal(ram.bytes[:4, 20:80], frame)
+        np.testing.assert_array_equal(ram.bytes[:rows, left : left + width], frame)
 
 
 @pytest.mark.parametrize(
-    ("form", "pointer"), [("halves", 3), ("a row as argument", 4), ("one command", 2), ("pairs", 2)]
+    ("form", "pointer"),
+    [("halves", 3), ("a row as argument", 4), ("one command", 2), ("pairs", 2), ("one after the other", 2)],
 )
 def test_what_a_byte_costs(package, form, pointer):
     controller = replace(SH1106(), pointer=FORMS[form])

@@ -371,7 +371,7 @@ class UC1609(DisplayChip):
         **switch("inverted", 0xA6),
         **numbered("temperature", 0x24, 4),
         **numbered("power", 0x28, 8, reset=6),
-        **dict.fromkeys((0x30, 0x31), nothing(1)),
+        **dict.fromkeys(range(0x30, 0x34), nothing(1)),
         **numbered("start_line", 0x40, 64),
         0x81: setting("contrast", 0x49),
         **numbered("access", 0x88, 8, reset=1),

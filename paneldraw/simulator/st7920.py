@@ -19,9 +19,10 @@ _MESSAGES: Final = re.compile(rb"([\xf8-\xff]?)([^\xf8-\xff]*)")
 
 
 def _function_set(chip: Any, sent: bytes) -> None:
-    if chip.registers.extended:
-        chip.registers.graphics = bool(sent[0] & 0x02)  # not by the command that comes here from the basic set
-    chip.registers.extended = bool(sent[0] & 0x04)
+    registers, extended = chip.registers, bool(sent[0] & 0x04)
+    if registers.extended and extended:
+        registers.graphics = bool(sent[0] & 0x02)
+    registers.extended = extended  # and no more: one command cannot alter both, the sheet says
 
 
 def _clear(chip: Any, sent: bytes) -> None:

@@ -41,3 +41,13 @@ def test_a_byte_is_two_pixels_the_left_one_above(package, levels, view, max_leve
         for x in range(0, width, 2):
             left, right = (round(int(level) * 15 / max_level) for level in levels[y, x : x + 2])
             assert packed[y, x // 2] == 16 * left + right
+
+
+@given(levels=LEVELS, view=st.sampled_from(sorted(VIEWS)), max_level=st.sampled_from([1, 3, 15, 255]))
+def test_a_byte_is_eight_pixels_the_left_one_highest(package, levels, view, max_level):
+    packing = importlib.import_module("paneldraw.controllers.packing")
+    levels = np.minimum(VIEWS[view](levels), max_level)
+    levels = levels[:, : levels.shape[1] & ~7]
+    packed = np.full((levels.shape[0], levels.shape[1] // 8), 0xA5, np.uint8)
+    packing.pack_rows(levels, max_level, packed)
+    np.testing.assert_array_equal(packed, np.packbits(2 * levels.astype(int) > max_level, axis=1))
