@@ -7,21 +7,12 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from .addressing import ACROSS, DOWN, PAGE, levels, page_pointer
-from .commands import DISPLAY, Command, Commands, choice, nothing, numbered, relative, setting, switch
+from .addressing import ACROSS, DOWN, PAGE, page_pointer
+from .commands import DISPLAY, UNKNOWN, Command, Commands, choice, nothing, numbered, relative, setting, switch
 from .display_chip import DisplayChip
 from .frames import Picture
 from .glass import Glass, Module
 from .sh110x import end_modify, modify
-
-
-def either(basic: Command, extended: Command) -> Command:
-    """A command of no arguments that is one thing or another, as the register `extended` has it."""
-
-    def act(chip: Any, sent: bytes) -> None:
-        (extended if chip.registers.extended else basic).act(chip, sent)
-
-    return Command(0, act, {**basic.registers, **extended.registers})
 
 
 def address(register: str, count: int) -> Command:
@@ -33,14 +24,10 @@ def address(register: str, count: int) -> Command:
             chip.complain(f"there is no {register} past {count - 1}", sent)
         setattr(chip.registers, register, number % count)
 
-    return Command(0, act, {register: 0})
+    return Command(0, act, {register: 0}, points=True)
 
 
 # -- The PCD8544
-
-
-def _reserved(chip: Any, sent: bytes) -> None:
-    chip.complain("a command that is reserved", sent)
 
 
 def _function_set(chip: Any, sent: bytes) -> None:
@@ -48,13 +35,21 @@ def _function_set(chip: Any, sent: bytes) -> None:
     registers.on, registers.down, registers.extended = not bits & 0x04, bool(bits & 0x02), bool(bits & 0x01)
 
 
-_RESERVED = Command(0, _reserved)
-_BASIC: Mapping[int, Command] = {
-    **choice("display", 0x08, {0x08: 0x08, 0x09: 0x09, 0x0C: 0x0C, 0x0D: 0x0D}),
-    **dict.fromkeys(range(0x40, 0x48), address("page", 6)),
-    **dict.fromkeys(range(0x80, 0x100), address("column", 84)),
+#: What function set and extended commands set.
+_REGISTERS: Mapping[str, Any] = {
+    "on": False,
+    "down": False,
+    "extended": False,
+    "temperature": 0,
+    "bias": 0,
+    "contrast": 0,
 }
-_EXTENDED: Mapping[int, Command] = {
+_COMMON: Commands = {
+    0x00: nothing(),
+    **dict.fromkeys(range(0x20, 0x28), Command(0, _function_set, _REGISTERS)),
+}
+_EXTENDED: Commands = {
+    **_COMMON,
     **numbered("temperature", 0x04, 4),
     **numbered("bias", 0x10, 8),
     **numbered("contrast", 0x80, 128),
@@ -82,10 +77,14 @@ class PCD8544(DisplayChip):
     upright = (False, False)
     supply_command = "21 80 and more"
     commands: ClassVar = {
-        **{n: either(_BASIC.get(n, _RESERVED), _EXTENDED.get(n, _RESERVED)) for n in {*_BASIC, *_EXTENDED}},
-        0x00: nothing(),
-        **dict.fromkeys(range(0x20, 0x28), Command(0, _function_set, {"on": False, "down": False, "extended": False})),
+        **_COMMON,
+        **choice("display", 0x08, {0x08: 0x08, 0x09: 0x09, 0x0C: 0x0C, 0x0D: 0x0D}),
+        **dict.fromkeys(range(0x40, 0x48), address("page", 6)),
+        **dict.fromkeys(range(0x80, 0x100), address("column", 84)),
     }
+
+    def _command(self, opcode: int) -> Command:
+        return _EXTENDED.get(opcode, UNKNOWN) if self.registers.extended else super()._command(opcode)
 
     @property
     def fed(self) -> bool:
@@ -179,7 +178,7 @@ class ST7565(DisplayChip):
     """
 
     buses: ClassVar[tuple[str, ...]] = ("spi",)
-    columns, lines = 132, 9
+    columns, lines, last_rows = 132, 9, 1
     modules: ClassVar = {(128, 64): Module(), (128, 32): Module(4), (132, 64): Module()}
     duties: ClassVar[Mapping[tuple[int, int], int]] = {(128, 32): 33}
     """The duty that modules are wired for. Default: 65."""
@@ -230,10 +229,10 @@ class ST7565(DisplayChip):
     def _look(self) -> Picture:
         if not self.lit:
             return np.zeros((self.height, self.width), np.uint8)
-        rows = levels(self._ram, self.packing)
+        rows = self._levels()
         seen, dark = self._glass.pixels(rows[:64], self)
         if self.height > 64:
-            seen = np.vstack((seen, self._glass.dots(rows[64:65])))
+            seen = np.vstack((seen, self._glass.dots(rows[64:])))
         if self.all_on:
             seen = np.ones_like(seen)
         elif self.inverted:

@@ -7,15 +7,23 @@ from typing import Any, ClassVar, Final
 
 import numpy as np
 
-from .addressing import ROWS, levels
+from .addressing import ROWS, Counter, levels, put, way
 from .commands import Command, choice, nothing, numbered
 from .display_chip import DisplayChip
 from .frames import Picture
 from .glass import Glass, Module
-from .lcd import either
 
 _MESSAGES: Final = re.compile(rb"([\xf8-\xff]?)([^\xf8-\xff]*)")
 """Half bytes end in four zeros, so that a sync byte is never one of them."""
+
+
+def either(basic: Command, extended: Command) -> Command:
+    """A command of no arguments that is one thing or another, as the register `extended` has it."""
+
+    def act(chip: Any, sent: bytes) -> None:
+        (extended if chip.registers.extended else basic).act(chip, sent)
+
+    return Command(0, act, {**basic.registers, **extended.registers})
 
 
 def _function_set(chip: Any, sent: bytes) -> None:
@@ -43,6 +51,7 @@ def _glyph_address(chip: Any, sent: bytes) -> None:
 
 def _picture_address(chip: Any, sent: bytes) -> None:
     registers = chip.registers
+    chip._progress.pointed = True
     if registers.half_address is None:
         if sent[0] & 0x40:
             chip.complain("there is no row past 63", sent)
@@ -96,7 +105,7 @@ class ST7920(DisplayChip):
         **dict.fromkeys(range(0x20, 0x40), Command(0, _function_set, {"extended": False, "graphics": False})),
         **{
             0x40 + n: either(Command(0, _glyph_address), scroll)
-            for n, scroll in enumerate(numbered("scroll", 0x40, 64).values())
+            for n, scroll in enumerate(numbered("scroll_row", 0x40, 64).values())
         },
         **dict.fromkeys(range(0x80, 0x100), either(Command(0, _text_address), _ADDRESS)),
     }
@@ -116,7 +125,6 @@ class ST7920(DisplayChip):
 
     def transfer(self, run: bytes | bytearray | memoryview, data: bool) -> None:
         """Take bytes of the serial line; there is no D/C pin."""
-        self._picture = None
         for sync, halves in _MESSAGES.findall(bytes(run)):
             if sync:
                 if self._half:
@@ -125,9 +133,9 @@ class ST7920(DisplayChip):
                 if self._sync & 0x05:
                     self.complain("a sync byte is F8 or FA where nothing is read", sync)
             if halves:
-                self._take(self._half + halves)
+                self._take_halves(self._half + halves)
 
-    def _take(self, halves: bytes) -> None:
+    def _take_halves(self, halves: bytes) -> None:
         """Take half bytes."""
         if not self._sync:
             self.complain("bytes before the first sync byte are lost")
@@ -144,6 +152,9 @@ class ST7920(DisplayChip):
             self._half_cell = b""
             for byte in payload:
                 self._table[byte].act(self, bytes((byte,)))
+            if not self._progress.pointed:
+                self._end_picture()
+                self._picture = None
 
     def _take_data(self, data: bytes) -> None:
         registers = self.registers
@@ -163,12 +174,12 @@ class ST7920(DisplayChip):
 
     def _fill(self, words: bytes) -> None:
         """Put words into the row, around its end if need be."""
-        at, dots = 16 * self.registers.column, np.unpackbits(np.frombuffer(words, np.uint8))
-        self.registers.column = (at + dots.size) // 16 % 16
-        row = self._ram[self.registers.row].reshape(-1)
-        while at + dots.size > row.size:
-            row[at:], dots, at = dots[: row.size - at], dots[row.size - at :], 0
-        row[at : at + dots.size] = dots
+        column, row, count = self.registers.column, self.registers.row, len(words) // 2
+        places, self.registers.column, _ = way(count, Counter(column, 0, 15, 16), Counter(row, row, row, 64))
+        if self._progress.draw(places):
+            self._end_picture()
+        put(self._ram, places, np.unpackbits(np.frombuffer(words, np.uint8)).reshape(count, 16))
+        self._picture = None
 
     @property
     def contrast(self) -> int:

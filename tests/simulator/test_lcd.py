@@ -97,8 +97,8 @@ def test_pcd8544_display_modes_and_the_extended_set() -> None:
     [
         ("20 46", "46: there is no page past 5"),
         ("20 D4", "D4: there is no column past 83"),
-        ("20 10", "10: a command that is reserved"),
-        ("21 40", "40: a command that is reserved"),
+        ("20 10", "10: a command neither of the PCD8544 nor of its relatives; ignored here"),
+        ("21 40", "40: a command neither of the PCD8544 nor of its relatives; ignored here"),
         ("0A", "0A: a command neither of the PCD8544 nor of its relatives; ignored here"),
     ],
 )
