@@ -276,7 +276,7 @@ def _module(query: dict[str, str]) -> dict[str, Any]:
 
 def _on(bus: str, controller: Controller) -> Controller:
     if bus not in controller.buses:
-        forms = " or ".join(_FORMS[bus].partition("?")[0] for bus in controller.buses)
+        forms = " or ".join(_FORMS[bus.removesuffix("-pair")].partition("?")[0] for bus in controller.buses)
         buses = " and ".join(BUSES[bus] for bus in controller.buses)
         complaint = f"chip must be one that {BUSES[bus]} reaches, not {controller.name!r}: it is on {buses}"
         raise ValueError(f"{complaint}, such as {forms}?chip={controller.name}")

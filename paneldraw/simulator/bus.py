@@ -399,8 +399,9 @@ class I2CBus(Wire):
                         self._carry(part, device)
                     finally:
                         if device is not None:
-                            wire_bytes = touched.get(id(device), (device, 0))[1] + self.bytes - before
-                            touched[id(device)] = device, wire_bytes
+                            chip = getattr(device, "chip", device)  # of two addresses, perhaps
+                            wire_bytes = touched.get(id(chip), (chip, 0))[1] + self.bytes - before
+                            touched[id(chip)] = chip, wire_bytes
                     if part.stop:
                         stops += 1
                         self._stop()

@@ -316,11 +316,11 @@ class DataPort:
     """The second address of a chip, which takes data where the first takes commands."""
 
     def __init__(self, chip: UC1609) -> None:
-        self._chip = chip
+        self.chip = chip
 
     def write(self, payload: bytes) -> None:
         """Take one I2C write: data from its first byte."""
-        self._chip.transfer(payload, data=True)
+        self.chip.transfer(payload, data=True)
 
     def read(self, length: int) -> bytes:
         """Answer one I2C read with zeros: the RAM is not read here."""
@@ -328,7 +328,7 @@ class DataPort:
 
     def settle(self, seconds: float, wire_bytes: int) -> None:
         """Note that a bus call is over."""
-        self._chip.settle(seconds, wire_bytes)
+        self.chip.settle(seconds, wire_bytes)
 
 
 class UC1609(DisplayChip):

@@ -7,14 +7,15 @@ from typing import Any, ClassVar, Final
 
 import numpy as np
 
-from .addressing import ROWS, Counter, levels, put, way
+from .addressing import ROWS
 from .commands import Command, choice, nothing, numbered
 from .display_chip import DisplayChip
 from .frames import Picture
 from .glass import Glass, Module
 
-_MESSAGES: Final = re.compile(rb"([\xf8-\xff]?)([^\xf8-\xff]*)")
+_SYNC: Final = re.compile(rb"[\xf8-\xff]")
 """Half bytes end in four zeros, so that a sync byte is never one of them."""
+_LEGAL: Final = bytes((*range(0, 0x100, 0x10), *range(0xF8, 0x100)))
 
 
 def either(basic: Command, extended: Command) -> Command:
@@ -89,7 +90,7 @@ class ST7920(DisplayChip):
 
     buses = ("spi",)
     cs_high = True
-    packing, line_name = ROWS, "row"
+    packing, line_name = ROWS._replace(elements=1), "row"  # bytes, which are spread when they are looked at
     columns, lines, column_bytes = 16, 64, 2
     modules: ClassVar = {size: Module() for size in ((128, 64), (128, 32), (144, 32), (160, 32), (192, 32), (256, 32))}
     upright = (False, False)
@@ -113,11 +114,11 @@ class ST7920(DisplayChip):
     def reset(self) -> None:
         """Pull the reset pin: registers at reset, a half-sent byte forgotten, RAM as it was."""
         super().reset()
-        self._sync, self._half = 0, b""
+        self._sync, self._half = 0, ""
 
     def deselect(self) -> None:
         """Note that the chip select falls: what comes next begins with a sync byte."""
-        self._sync, self._half = 0, b""
+        self._sync, self._half = 0, ""
 
     def write(self, payload: bytes | bytearray | memoryview) -> None:
         """Refuse I2C, which the chip does not have."""
@@ -125,36 +126,38 @@ class ST7920(DisplayChip):
 
     def transfer(self, run: bytes | bytearray | memoryview, data: bool) -> None:
         """Take bytes of the serial line; there is no D/C pin."""
-        for sync, halves in _MESSAGES.findall(bytes(run)):
-            if sync:
-                if self._half:
-                    self.complain("a byte is cut off after its first half")
-                self._sync, self._half = sync[0], b""
-                if self._sync & 0x05:
-                    self.complain("a sync byte is F8 or FA where nothing is read", sync)
-            if halves:
-                self._take_halves(self._half + halves)
+        run = bytes(run)
+        if run.translate(None, _LEGAL):
+            self.complain("a half byte ends in four zeros")
+        halves, at = run.hex()[::2], 0
+        for sync in _SYNC.finditer(run):
+            self._take_halves(halves[at : sync.start()])
+            if self._half:
+                self.complain("a byte is cut off after its first half")
+            self._sync, self._half, at = run[sync.start()], "", sync.end()
+            if self._sync & 0x05:
+                self.complain("a sync byte is F8 or FA where nothing is read", sync.group())
+        self._take_halves(halves[at:])
 
-    def _take_halves(self, halves: bytes) -> None:
-        """Take half bytes."""
+    def _take_halves(self, halves: str) -> None:
+        """Take half bytes, of each its digit."""
+        if not halves:
+            return
         if not self._sync:
             self.complain("bytes before the first sync byte are lost")
             return
-        digits = halves.hex()
-        if digits[1::2].strip("0"):
-            self.complain("a half byte ends in four zeros")
+        halves = self._half + halves
         whole = len(halves) & ~1
-        self._half = halves[whole:]
-        payload = bytes.fromhex(digits[: 2 * whole : 2])
+        payload, self._half = bytes.fromhex(halves[:whole]), halves[whole:]
         if self._sync & 0x02:
             self._take_data(payload)
-        else:
-            self._half_cell = b""
-            for byte in payload:
-                self._table[byte].act(self, bytes((byte,)))
-            if not self._progress.pointed:
-                self._end_picture()
-                self._picture = None
+            return
+        self._half_cell = b""
+        for byte in payload:
+            self._table[byte].act(self, bytes((byte,)))
+        if not self._progress.pointed:
+            self._end_picture()
+            self._picture = None
 
     def _take_data(self, data: bytes) -> None:
         registers = self.registers
@@ -174,12 +177,23 @@ class ST7920(DisplayChip):
 
     def _fill(self, words: bytes) -> None:
         """Put words into the row, around its end if need be."""
-        column, row, count = self.registers.column, self.registers.row, len(words) // 2
-        places, self.registers.column, _ = way(count, Counter(column, 0, 15, 16), Counter(row, row, row, 64))
-        if self._progress.draw(places):
+        registers, count = self.registers, len(words) // 2
+        column, row = registers.column, registers.row
+        room = min(count, 16 - column)
+        place = row, slice(column, column + room)
+        if self._progress.draw([place]):
             self._end_picture()
-        put(self._ram, places, np.unpackbits(np.frombuffer(words, np.uint8)).reshape(count, 16))
+        self._ram[place] = np.frombuffer(words, np.uint8, 2 * room).reshape(room, 2)
         self._picture = None
+        registers.column = (column + room) % 16
+        if count > room:
+            self._fill(words[2 * room :])
+
+    def _lose_ram(self) -> None:
+        self._ram[:] = np.frombuffer(self._random.randbytes(self._ram.size), np.uint8).reshape(self._ram.shape)
+
+    def _levels(self) -> Picture:
+        return np.unpackbits(self._ram.reshape(self.lines, -1), axis=1)
 
     @property
     def contrast(self) -> int:
@@ -225,5 +239,5 @@ class ST7920(DisplayChip):
     def _look(self) -> Picture:
         if not self.lit:
             return np.zeros((self.height, self.width), np.uint8)
-        seen, _ = self._glass.pixels(levels(self._ram, self.packing), self)
+        seen, _ = self._glass.pixels(self._levels(), self)
         return np.vstack(np.split(seen, 2, axis=1)) if self._folded else seen

@@ -48,12 +48,17 @@ def reels(name: str) -> Iterator[tuple[str, list[Any], list[Any]]]:
     inverse = (2**record.depth - 1) - noise
     for kind in record.buses:
         tape, twin = Tape(), chip(history=2)
-        if kind == "i2c":
-            panel, bus = Panel(record, I2CTransport(tape)), simulator.I2CBus({0x3C: twin}, timer=None)
-            doors: dict[str, Any] = {"i2c_rdwr": bus.i2c_rdwr}
+        if kind == "spi":
+            dc = None if record.synced else 24
+            panel = Panel(record, SPITransport(spi=tape, pins=tape, dc=dc))
+            wire = simulator.SPIBus(twin, dc=dc, timer=None)
+            wire.spi.cshigh = record.synced
+            doors: dict[str, Any] = {"writebytes2": wire.spi.writebytes2, "set": wire.pins.set}
         else:
-            panel, wire = Panel(record, SPITransport(spi=tape, pins=tape)), simulator.SPIBus(twin, timer=None)
-            doors = {"writebytes2": wire.spi.writebytes2, "set": wire.pins.set}
+            pair = {"data_address": 0x3D} if kind == "i2c-pair" else {}
+            panel = Panel(record, I2CTransport(tape, **pair))
+            bus = simulator.I2CBus({0x3C: twin} | ({0x3D: twin.data} if pair else {}), timer=None)
+            doors = {"i2c_rdwr": bus.i2c_rdwr}
         parts = []
         for picture in (noise, inverse, noise, inverse):
             panel.show(picture)

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+import smbus2
 from numpy.typing import NDArray
 from PIL import Image
 
@@ -332,10 +333,12 @@ def test_uc1609_on_i2c_takes_data_at_the_next_address() -> None:
     bus = simulator.I2CBus({0x3C: chip, 0x3D: chip.data}, timer=None)
     for command in bytes.fromhex("E2 C4 B1 10 05 AF"):
         bus.write_byte(0x3C, command)
-    bus.write_i2c_block_data(0x3D, 0x11, [0x22])
+    chip.frames.clear()
+    message, words = smbus2.i2c_msg.write(0x3C, b"\xb1\x10\x05"), smbus2.i2c_msg.write(0x3D, b"\x11\x22")
+    bus.i2c_rdwr(message, words)
     assert chip.ram[1, 5:7].tolist() == [0x11, 0x22]
+    assert [frame.wire_bytes for frame in chip.frames] == [4 + 3]
     assert bus.read_byte(0x3D) == 0
-    assert chip.frames
 
 
 # -- ST7920 (Sitronix, V4.0): tables 5 and 6, and the serial interface
@@ -368,7 +371,7 @@ def test_st7920_words_wrap_within_their_row() -> None:
     chip = drawing()
     write(chip, "83 8F", "1234 5678")
     assert chip.registers.column == 1
-    assert np.packbits(chip.ram[3])[[30, 31, 0, 1]].tolist() == [0x12, 0x34, 0x56, 0x78]
+    assert chip.ram[3, [30, 31, 0, 1]].tolist() == [0x12, 0x34, 0x56, 0x78]
     write(chip, "84 80", "00" * 68)
     assert chip.registers.column == 2
     assert not chip.ram[4].any()
@@ -380,7 +383,7 @@ def test_st7920_takes_words_in_pieces_and_a_command_ends_one() -> None:
     write(chip, "80 80", "AB")
     chip.transfer(serial("CD EF", 0xFA), data=False)
     write(chip, "80 82", "1122")
-    assert np.packbits(chip.ram[0])[[0, 1, 4, 5]].tolist() == [0xAB, 0xCD, 0x11, 0x22]
+    assert chip.ram[0, [0, 1, 4, 5]].tolist() == [0xAB, 0xCD, 0x11, 0x22]
 
 
 def test_st7920_shows_graphics_only_and_the_command_from_the_basic_set_does_not_switch_them() -> None:
