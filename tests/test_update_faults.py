@@ -107,7 +107,7 @@ def test_after_a_fault_at_any_message_the_next_show_is_whole_and_right(name, fau
             assert panel.stats.retries == 1
         else:
             assert [(isinstance(error, kind), isinstance(error, OSError)) for error in errors] == [(True, True)]
-        assert chip.contrast == 33
+        assert chip.contrast == round(33 * panel.controller.contrast.highest / 255)
 
 
 @pytest.mark.parametrize("name", ON_I2C)

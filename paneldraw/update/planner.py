@@ -345,8 +345,8 @@ class Planner:
                     if not self._around:
                         break
                     first += w.width
-                cost = self._jumps[w.pointer_bytes(row, self._after(column, late), to_row, first)]
-                cost += size * (late + early)
+                jump = self._jumps[w.pointer_bytes(row, self._after(column, late), to_row, first)]
+                cost = jump + size * (late + early)
                 if cost < best:
                     best, self._bridge, self._late, self._early = cost, -1, late, early
                     if cost <= self._jumps[1]:
