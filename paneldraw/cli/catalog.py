@@ -14,6 +14,9 @@ PARAMETERS = {
     "com_pins": "0x02, 0x12, 0x22 or 0x32; where lines are missing or doubled, another",
     "charge_pump": "0 where the module has a panel supply of its own",
     "internal_reference": "1 where the picture is right and dim",
+    "bias": "LCD: 9 for 1/9, and so on; another one where dots that are off show",
+    "resistor_ratio": "LCD: 0 to 7; lower where all is dark, higher where all is pale",
+    "duty": "LCD: the duty that the module's pins choose, 65, 55, 53, 49 or 33",
     "mirror_x": "1 where left and right are swapped",
     "mirror_y": "1 where top and bottom are swapped",
     "chained_control": "1 allows control bytes in a chain, which spare bytes and some clones do not take",
@@ -51,7 +54,8 @@ def describe(name: str) -> Iterator[str]:
     for parameter in chip.parameters:
         yield f"  {parameter.ljust(width)}  {PARAMETERS.get(parameter, '')}".rstrip()
     places = {"i2c": "i2c://1/0x3c", "spi": "spi://0.0"}
-    yield f"try: {' or '.join(f'{places[bus]}?chip={name.lower()}' for bus in chip.buses)}"
+    tries = (f"{places[bus.removesuffix('-pair')]}?chip={name.lower()}" for bus in chip.buses)
+    yield f"try: {' or '.join(tries)}"
 
 
 def _buses(buses: tuple[str, ...]) -> str:

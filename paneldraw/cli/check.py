@@ -182,3 +182,5 @@ def ask(question: str) -> str:
     if not (line and sys.stdin.isatty()):
         print()
     return line.strip().lower()[:1] or "y"
+
+

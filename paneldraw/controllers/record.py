@@ -8,7 +8,7 @@ from typing import Final
 #: Pixels that share a byte, by packing: columns and rows.
 PACKINGS: Final = {"pages": (1, 8), "nibbles": (2, 1), "rows": (8, 1)}
 #: Kinds of bus, by the name that a transport and a record give them.
-BUSES: Final = {"i2c": "I2C", "i2c-pair": "I2C with data_address= of I2CTransport", "spi": "SPI"}
+BUSES: Final = {"i2c": "I2C", "i2c-pair": "I2C with a data_address=", "spi": "SPI"}
 _DEPTHS: Final = {"pages": 1, "nibbles": 4, "rows": 1}
 _PAUSE: Final = " ms"
 

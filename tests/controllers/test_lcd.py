@@ -397,7 +397,7 @@ def test_a_uc1609_on_i2c_has_two_addresses_and_no_control_bytes():
     panel.show(1 - drawn)
     np.testing.assert_array_equal(chip.pixels, 1 - drawn)
     assert blameless(chip)
-    with pytest.raises(ValueError, match="the uc1609 is on SPI or I2C with data_address= of I2CTransport"):
+    with pytest.raises(ValueError, match="the uc1609 is on SPI or I2C with a data_address="):
         Panel(UC1609(), I2CTransport(bus, 0x3C))
     with pytest.raises(ValueError, match="data_address must be 0x08 to 0x77"):
         I2CTransport(bus, 0x3C, data_address=0x80)
