@@ -8,10 +8,10 @@ from .bus import I2CBus, Multiplexer
 from .frames import Frame
 from .lcd import PCD8544, ST7565, ST7567, UC1609, UC1701
 from .recorder import Look, contact_sheet, image, save
-from .sh110x import SH1106, SH1107
+from .sh110x import CH1115, SH1106, SH1107, SH1122
 from .spi import SPIBus
-from .ssd130x import SSD1306, SSD1309, SSD1315, SSD1316
-from .ssd132x import SSD1322, SSD1327
+from .ssd130x import SSD1305, SSD1306, SSD1309, SSD1312, SSD1315, SSD1316
+from .ssd132x import SSD1322, SSD1325, SSD1327, SSD1362
 from .st7920 import ST7920
 from .terminal import TerminalView, text
 
@@ -19,15 +19,21 @@ if TYPE_CHECKING:
     from .web import serve
 
 __all__ = [
+    "CH1115",
     "PCD8544",
     "SH1106",
     "SH1107",
+    "SH1122",
+    "SSD1305",
     "SSD1306",
     "SSD1309",
+    "SSD1312",
     "SSD1315",
     "SSD1316",
     "SSD1322",
+    "SSD1325",
     "SSD1327",
+    "SSD1362",
     "ST7565",
     "ST7567",
     "ST7920",

@@ -143,6 +143,17 @@ def page_pointer(pages: int = 8, *, only_in_page_mode: bool = False) -> Commands
     }
 
 
+def row_pointer(rows: int) -> Commands:
+    """The page pointer of chips that have rows: B0 takes the row as an argument."""
+
+    def row(chip: Any, sent: bytes) -> None:
+        if sent[1] >= rows:
+            chip.complain(f"there is no row past {rows - 1}", sent)
+        chip.registers.row = sent[1] % rows
+
+    return {**page_pointer(1), 0xB0: Command(1, row, {"row": 0}, points=True)}
+
+
 def _addressing_mode(chip: Any, sent: bytes) -> None:
     mode = sent[1] & 0x03
     if mode == 0x03:
@@ -172,9 +183,10 @@ def windows(
             size = chip.columns if axis == "column" else chip.lines
             if not_in_page_mode and chip.mode == PAGE:
                 chip.complain("windows are for horizontal and vertical addressing mode only", sent)
-            if max(sent[1:]) >= size:
-                chip.complain(f"there is no {axis} past {size - 1}", sent)
             start, end = sent[1] % size, sent[2] % size
+            if max(sent[1:]) >= size:  # the upper bits of an end of all ones, as some drivers send it, are not missed
+                harmless = sent[1] < size and end == size - 1
+                (chip.remark if harmless else chip.complain)(f"there is no {axis} past {size - 1}", sent)
             if start > end:
                 chip.complain(f"the window starts after its end, at the {axis}s", sent)
             registers = vars(chip.registers)

@@ -70,6 +70,8 @@ class DisplayChip(Chip):
     swap_bit: ClassVar[int] = 0x20
     upright: tuple[bool, bool] = (True, True)
     """The segment remap and the direction of the COM lines under which modules stand upright."""
+    reversed_lines: int = 0
+    """So many lines a reversed scan begins at the end of; 0 where they are as many as the multiplex ratio."""
     remaps_ram: ClassVar[bool] = True
     """Whether the segment remap mirrors what comes into the RAM, or else what comes out of it."""
     transposed: ClassVar[bool] = False
@@ -313,16 +315,20 @@ class DisplayChip(Chip):
             self._half_cell, data = data[whole:].tobytes(), data[:whole]
         self._place(self.packing.spread(data).reshape(-1, self._ram.shape[2]))
 
+    @property
+    def _addressed(self) -> Bytes:
+        """The RAM's cells as addresses and bytes have them."""
+        ram = self._ram
+        if self.remaps_ram and self.segment_remap:
+            ram = ram[:, ::-1, ::-1]
+        return ram if self.high_first else ram[:, :, ::-1]
+
     def _place(self, cells: Bytes) -> None:
         """Put cells where the pointer stands, and move it on."""
-        mode, ram = self.mode, self._ram
+        mode, ram = self.mode, self._addressed
         places, column, line = self._way(len(cells), mode)
         if self._progress.draw(places, down=mode == DOWN):
             self._end_picture()
-        if self.remaps_ram and self.segment_remap:
-            ram = ram[:, ::-1, ::-1]
-        if not self.high_first:
-            ram = ram[:, :, ::-1]
         put(ram.swapaxes(0, 1) if mode == DOWN else ram, places, cells)
         self._picture = None
         self.registers.column = column
@@ -431,7 +437,7 @@ class DisplayChip(Chip):
             segments=self.segments,
             first_segment=first_dot,
             pads=pads,
-            remapped=self.upright[0],
-            com_reversed=self.upright[1],
+            remapped=(module.upright or self.upright)[0],
+            com_reversed=(module.upright or self.upright)[1],
             transposed=self.transposed,
         )

@@ -21,15 +21,22 @@ class Module(NamedTuple):
         The setting of the COM pins that the glass is wired for.
     first_com : int
         First COM signal that the glass uses.
+    upright : (bool, bool), optional
+        The segment remap and the direction of the COM lines under which it stands upright. Default: as the chip's
+        common modules.
     """
 
     column_offset: int = 0
     com_pins: int = 0
     first_com: int = 0
+    upright: tuple[bool, bool] | None = None
 
 
 class Scan(Protocol):
     """What says how RAM rows come onto the glass."""
+
+    reversed_lines: int
+    """So many lines a reversed scan begins at the end of; 0 where they are as many as the multiplex ratio."""
 
     @property
     def scan(self) -> tuple[int, int, int, bool, int]:
@@ -103,7 +110,7 @@ class Glass:
     def _rows(self, count: int, chip: Scan) -> tuple[slice | NDArray[np.intp], NDArray[np.bool_] | None]:
         multiplex, offset, start_line, com_reversed, setting = chip.scan
         signals = chip.com_signals(setting)[self._pads]
-        lines = multiplex - signals if com_reversed else signals
+        lines = (chip.reversed_lines or multiplex + 1) - 1 - signals if com_reversed else signals
         rows = (lines + offset) % count
         dark = rows > multiplex
         rows = (rows + start_line) % count

@@ -1,11 +1,11 @@
-"""Sino Wealth's chips of one bit a pixel: the SH1106 and the SH1107."""
+"""Sino Wealth's chips, the SH1106, the SH1107 and, of four bits a pixel, the SH1122; and the CH1115, alike."""
 
 from __future__ import annotations
 
 from typing import Any, ClassVar
 
-from .addressing import DOWN, PAGE, page_pointer
-from .commands import Command, Commands, choice, numbered, relative, setting
+from .addressing import DOWN, NIBBLES, PAGE, page_pointer, row_pointer
+from .commands import Command, Commands, choice, nothing, numbered, relative, setting
 from .display_chip import DisplayChip
 from .glass import Module
 from .ssd130x import ONE_BIT, RELATIVES
@@ -112,9 +112,80 @@ class SH1107(DisplayChip):
         **page_pointer(16),
         **choice("mode", PAGE, {0x20: PAGE, 0x21: DOWN}),
         0x22: relative("windows of the SSD1306", 2, misleads=True),
+        **dict.fromkeys(range(0x40, 0x80), relative("start line of the SH1106")),
         0xA8: setting("multiplex", 127, range(128), "the multiplex ratio is 00 to 7F (1 to 128 lines)", mask=0x7F),
         0xAD: setting("converter", 0x80, range(0x80, 0x90), "the DC-DC converter takes 80 to 8F", harmless=True),
         0xD3: setting("offset", 0x00, range(128), "the display offset is 00 to 7F", mask=0x7F),
         0xD5: setting("clock", 0x50),
         0xDC: setting("start_line", 0x00, range(128), "the start line is 00 to 7F", mask=0x7F),
+    }
+
+
+class CH1115(DisplayChip):
+    """A CH1115 with its glass: 128 x 64 pixels. Scrolling and breathing are state only.
+
+    Parameters, attributes and errors are those of `simulator.SSD1306`. Look-alikes with 132 columns of RAM begin at
+    column 2 (`column_offset`).
+
+    Examples
+    --------
+    >>> chip = CH1115()
+    >>> chip.write(bytes.fromhex("00 AD 8B A5 AF"))
+    >>> int(chip.pixels.sum()), chip.violations
+    (8192, [])
+    """
+
+    columns, lines, wide_columns = 128, 8, 132
+    modules: ClassVar = {(128, 64): Module(0)}
+    last_column_wraps = False
+    supply, supply_command = ("converter", 0x01), "AD 8B"
+    commands: ClassVar = {
+        **SINO_WEALTH,
+        **page_pointer(),
+        **numbered("start_line", 0x40, 64),
+        **numbered("pump_voltage", 0x30, 4, reset=1),
+        0x20: relative("addressing mode of the SSD1306", 1),
+        **dict.fromkeys((0x21, 0x22), relative("windows of the SSD1306", 2, misleads=True)),
+        0x23: setting("breathing", 0x00),
+        0x24: nothing(2),
+        **dict.fromkeys((0x26, 0x27), nothing(3)),
+        **dict.fromkeys(range(0x28, 0x2C), nothing()),
+        **dict.fromkeys((0x2E, 0x2F), nothing()),
+        0x82: setting("reference", 0x00, range(8), "the reference takes 00 to 07", harmless=True),
+        **dict.fromkeys((0xA2, 0xA3), nothing()),
+        0xA8: setting("multiplex", 63, range(64), "the multiplex ratio is 00 to 3F (1 to 64 lines)", mask=0x3F),
+        0xDB: setting("vcomh", 0x40),
+    }
+
+
+class SH1122(DisplayChip):
+    """An SH1122 with its glass: 256 x 64 pixels of four bits, the left one of two in the upper half of a byte.
+
+    Parameters, attributes and errors are those of `simulator.SSD1306`. The module stands upright under A0 and C0. A
+    reversed scan (C8) begins in the middle, at line 31: public drivers then start the RAM at row 32. Data past a row is
+    lost, as no datasheet says where it goes.
+
+    Examples
+    --------
+    >>> chip = SH1122()
+    >>> chip.write(bytes.fromhex("00 B0 05 02 10 AF"))
+    >>> chip.write(bytes.fromhex("40 C3"))
+    >>> chip.pixels[5, 4:6].tolist()
+    [12, 3]
+    """
+
+    columns, lines, line_name, packing = 128, 64, "row", NIBBLES
+    modules: ClassVar = {(256, 64): Module(0)}
+    upright = (False, False)
+    reversed_lines = 32
+    last_column_wraps = False
+    commands: ClassVar = {
+        **SINO_WEALTH,
+        **row_pointer(64),
+        **numbered("start_line", 0x40, 64),
+        **numbered("discharge_level", 0x30, 16),
+        0xA8: setting("multiplex", 63, range(64), "the multiplex ratio is 00 to 3F (1 to 64 lines)", mask=0x3F),
+        0xAD: setting("converter", 0x80, range(0x80, 0x90), "the DC-DC converter takes 80 to 8F", harmless=True),
+        0xD5: setting("clock", 0x50),
+        0xDC: setting("precharge_voltage", 0x35),
     }

@@ -221,3 +221,65 @@ class SSD1316(SSD1315):
         **dict.fromkeys(range(0xB5, 0xB8), relative("pages past 4 of the SSD1306", misleads=True)),
         0xA8: setting("multiplex", 38, range(15, 39), "the multiplex ratio is 0F to 26 (16 to 39 lines)", mask=0x3F),
     }
+
+
+class SSD1312(SSD1306):
+    """An SSD1312: an SSD1306 with a choice of reference current, whose modules stand upright under A1 and C0.
+
+    The glass of 32 lines and less begins at COM 16.
+
+    Examples
+    --------
+    >>> chip = SSD1312(120, 28)
+    >>> chip.write(bytes.fromhex("00 A8 1B D3 30 8D 14 A5 AF"))
+    >>> int(chip.pixels.sum()) == 120 * 28
+    True
+    """
+
+    upright = (True, False)
+    identity = 0x00
+    modules: ClassVar = {
+        (128, 64): Module(0, 0x12),
+        (128, 32): Module(0, 0x12, 16),
+        (120, 32): Module(0, 0x12, 16),
+        (120, 28): Module(0, 0x12, 16),
+    }
+    commands: ClassVar = {**SSD1306.commands, 0xAD: SSD1315.commands[0xAD]}
+
+
+def _dim_on(chip: Any, sent: bytes) -> None:
+    chip.registers.on = True
+
+
+class SSD1305(SSD1306):
+    """An SSD1305: 132 columns of RAM, fed from outside, areas of other brightness, which are state only.
+
+    128x64 begins at column 2, of some modules at 0 or 4, 128x32 at 4. Of the arguments of its scroll the number of
+    columns a step is taken for 1.
+
+    Examples
+    --------
+    >>> chip = SSD1305(128, 32)
+    >>> chip.write(bytes.fromhex("00 A8 1F AD 8E A5 AF"))
+    >>> chip.pixels.shape, int(chip.pixels.min()), chip.violations
+    ((32, 128), 1, [])
+    """
+
+    columns = 132
+    modules: ClassVar = {(128, 64): Module(2, 0x12), (128, 32): Module(4, 0x12)}
+    supply, supply_command, identity = ("on", 1), "", 0x00
+    commands: ClassVar = {
+        **SSD1306.commands,
+        **scroll("h p i P", "h p i P v"),
+        **windows(132, 8, 0x21, 0x22, "page", not_in_page_mode=True),
+        0x82: setting("area_brightness", 0x80),
+        0x8D: RELATIVES[0x8D],
+        0x91: nothing(4),
+        **dict.fromkeys((0x92, 0x93), nothing(4)),
+        0xAB: nothing(3),
+        0xAC: Command(0, _dim_on),
+        0xAD: setting("master", 0x8F, (0x8E, 0x8F), "the master configuration takes 8E or 8F", harmless=True),
+        0xD3: setting("offset", 0x00, range(64), "the display offset is 00 to 3F", mask=0x3F, harmless=True),
+        0xD8: setting("area_color", 0x00),
+        0xDB: setting("vcomh", 0x34, (0x00, 0x34, 0x3C), "the VCOMH level is 00, 34 or 3C", harmless=True),
+    }

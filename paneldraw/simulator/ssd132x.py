@@ -1,4 +1,4 @@
-"""Solomon Systech's chips of four bits a pixel: the SSD1327 and the SSD1322."""
+"""Solomon Systech's chips of four bits a pixel: the SSD1327, the SSD1325, the SSD1362 and the SSD1322."""
 
 from __future__ import annotations
 
@@ -92,9 +92,10 @@ def _scroll_run(chip: Any, sent: bytes) -> None:
 
 
 class SSD1327(GreyChip):
-    """An SSD1327 with its glass: 128 x 128 pixels of four bits behind a window of 128 x 128 or 96 x 96 pixels.
+    """An SSD1327 with its glass: 128 x 128 pixels of four bits behind a window of that size or of a smaller one.
 
-    Parameters, attributes and errors are those of `simulator.SSD1306`. The common module stands upright under A0 51.
+    Parameters, attributes and errors are those of `simulator.SSD1306`. Modules stand upright under A0 51, that of 96x64
+    under A0 42.
     What an eye sees is given in levels, whatever the grey table makes of them. Hardware scrolling is state only.
 
     Examples
@@ -107,7 +108,12 @@ class SSD1327(GreyChip):
     """
 
     columns, lines = 64, 128
-    modules: ClassVar = {(128, 128): Module(0, 0x40), (96, 96): Module(16, 0x40, 32)}
+    modules: ClassVar = {
+        (128, 128): Module(0, 0x40),
+        (128, 96): Module(0, 0x40, 32),
+        (96, 96): Module(16, 0x40, 32),
+        (96, 64): Module(16, 0x40, upright=(False, False)),
+    }
     com_pin_settings = (0x00, 0x40)
     alternate_bit, swap_bit = 0x40, 0x00
     commands: ClassVar = {
@@ -124,6 +130,7 @@ class SSD1327(GreyChip):
         0xA2: setting("offset", 0x00, range(128), "the display offset is 00 to 7F", mask=0x7F),
         0xA8: setting("multiplex", 127, range(15, 128), "the multiplex ratio is 0F to 7F (16 to 128 lines)", mask=0x7F),
         0xBC: setting("precharge_voltage", 0x05, range(32), "the precharge voltage is 00 to 1F", harmless=True),
+        0xD9: relative("precharge of the SSD1306", 1),
         0xD5: setting("function_b", 0x60, range(0x60, 0x64), "function selection B is 60 to 63", harmless=True),
     }
 
@@ -138,6 +145,126 @@ class SSD1327(GreyChip):
         return self.segment_remap != bool(self.registers.remap & 0x02)
 
 
+def _fill(chip: Any, sent: bytes) -> None:
+    _, left, top, right, bottom, pattern = sent
+    if left > right or top > bottom or right >= chip.columns or bottom >= chip.lines:
+        chip.complain("a rectangle is within the RAM, from its left and top to its right and bottom", sent)
+    chip._addressed[top : bottom + 1, left : right + 1] = pattern >> 4, pattern & 0x0F
+
+
+class SSD1325(GreyChip):
+    """An SSD1325 with its glass: 128 x 80 pixels of four bits behind a window of 128 x 64, or the SSD0323, its twin.
+
+    Parameters, attributes and errors are those of `simulator.SSD1306`. The module's glass is at COM 12 to 75, upright
+    under A0 52 A2 4C. A reversed scan begins at the last of the 80 lines, as U8g2's values for a turned module have it;
+    which lines a smaller multiplex ratio leaves dark is not known, so none is, unless there are fewer than the glass
+    has. Copying and scrolling are state only.
+
+    Examples
+    --------
+    >>> chip = SSD1325()
+    >>> chip.write(bytes.fromhex("00 A8 3F A2 4C A0 52 24 00 00 3F 3F 77 24 02 05 02 05 C3 AF"))
+    >>> chip.pixels[5, 2:8].tolist()
+    [7, 7, 12, 3, 7, 7]
+    """
+
+    columns, lines = 64, 80
+    modules: ClassVar = {(128, 64): Module(0, 0x40, 12)}
+    com_pin_settings = (0x00, 0x40)
+    alternate_bit, swap_bit = 0x40, 0x00
+    upright = (False, True)
+    reversed_lines = 80
+    commands: ClassVar = {
+        **{opcode: GREY[opcode] for opcode in (*range(0xA4, 0xA8), 0xAE, 0xAF, 0xB1, 0xB3)},
+        **windows(64, 80, 0x15, 0x75),
+        **dict.fromkeys((0x84, 0x85, 0x86, 0xE3), nothing()),
+        0x23: setting("drawing", 0x00, range(32), "the drawing options are 00 to 1F", harmless=True),
+        0x24: Command(5, _fill),
+        0x25: nothing(6),
+        0x26: Command(4, _scroll, {"scroll": b"", "scrolling": False}),
+        **dict.fromkeys((0x2E, 0x2F), Command(0, _scroll_run)),
+        0x81: setting("contrast", 0x40, range(128), "the contrast is 00 to 7F", mask=0x7F, harmless=True),
+        0xA0: setting(
+            "remap", 0x00, [n for n in range(256) if not n & 0xA8], "bits 3, 5 and 7 of the remap are 0", mask=0x57
+        ),
+        0xA1: setting("start_line", 0x00, range(80), "the start line is 00 to 4F", mask=0x7F),
+        0xA2: setting("offset", 0x00, range(80), "the display offset is 00 to 4F", mask=0x7F, harmless=True),
+        0xA8: setting("multiplex", 79, range(15, 80), "the multiplex ratio is 0F to 4F (16 to 80 lines)", mask=0x7F),
+        0xAD: setting("master", 0x03, (0x02, 0x03), "the master configuration takes 02 or 03", harmless=True),
+        0xB8: nothing(8),
+        **dict.fromkeys((0xB0, 0xB2, 0xB4, 0xBF), nothing(1)),
+        0xB9: relative("linear grey table of the SSD1327"),
+        0xBC: setting("precharge_voltage", 0x00),
+        0xBE: setting("vcomh", 0x00),
+        **dict.fromkeys((0xAB, 0xB5, 0xB6, 0xD5, 0xFD), relative("supply and timing of the SSD1327", 1)),
+    }
+
+    @property
+    def segment_remap(self) -> bool:
+        """Whether column 0 is at the last segment."""
+        return bool(self.registers.remap & 0x01)
+
+    @property
+    def high_first(self) -> bool:
+        """Whether the upper half of a byte is the pixel nearer to column 0."""
+        return self.segment_remap != bool(self.registers.remap & 0x02)
+
+    @property
+    def scan(self) -> tuple[int, int, int, bool, int]:
+        """As of all chips, but with all lines driven unless they are fewer than the glass has."""
+        multiplex, offset, start_line, com_reversed, com_pins = super().scan
+        driven = multiplex if multiplex < self.height - 1 else self.lines - 1
+        return driven, offset, start_line, com_reversed, com_pins
+
+
+class SSD1362(GreyChip):
+    """An SSD1362 with its glass: 256 x 64 pixels of four bits behind a window of that or of 206 x 36 pixels.
+
+    Parameters, attributes and errors are those of `simulator.SSD1306`. Modules stand upright under A0 C3, with the left
+    pixel in the upper half of a byte, or under A0 43 with the right one. Fading is state only.
+
+    Examples
+    --------
+    >>> chip = SSD1362()
+    >>> chip.write(bytes.fromhex("00 A0 C3 15 02 02 75 05 05 AF"))
+    >>> chip.write(bytes.fromhex("40 C3"))
+    >>> chip.pixels[5, 4:6].tolist()
+    [12, 3]
+    """
+
+    columns, lines = 128, 64
+    modules: ClassVar = {(256, 64): Module(0), (206, 36): Module(0, 0, 14)}
+    alternate_bit, swap_bit = 0x00, 0x00
+    upright = (True, False)
+    commands: ClassVar = {
+        **GREY,
+        **windows(128, 64, 0x15, 0x75),
+        0x23: setting("fade", 0x00),
+        0x81: setting("contrast", 0x7F),
+        0xA0: setting(
+            "remap", 0x40, [n for n in range(256) if n & 0x68 == 0x40], "bits 3 and 5 of the remap are 0, bit 6 is 1"
+        ),
+        0xA1: setting("start_line", 0x00, range(64), "the start line is 00 to 3F", mask=0x3F),
+        0xA2: setting("offset", 0x00, range(64), "the display offset is 00 to 3F", mask=0x3F),
+        0xA8: setting("multiplex", 63, range(3, 64), "the multiplex ratio is 03 to 3F (4 to 64 lines)", mask=0x3F),
+        0xAD: setting("reference", 0x8E, (0x8E, 0x9E), "the reference takes 8E or 9E", harmless=True),
+        0xBC: setting("precharge_voltage", 0x04, range(32), "the precharge voltage is 00 to 1F", harmless=True),
+        0xBD: setting("capacitor", 0x00, (0x00, 0x01), "the capacitor takes 00 or 01", harmless=True),
+        0xE3: nothing(),
+    }
+
+    @property
+    def segment_remap(self) -> bool:
+        """Whether column 0 is at the last segment."""
+        return bool(self.registers.remap & 0x01)
+
+    @property
+    def high_first(self) -> bool:
+        """Whether the upper half of a byte is the pixel nearer to column 0; bit 7 swaps the segments' two sides."""
+        remap = self.registers.remap
+        return (self.segment_remap != bool(remap & 0x02)) != bool(remap & 0x80)
+
+
 def _remap(chip: Any, sent: bytes) -> None:
     if sent[1] & 0xC8 or sent[2] & ~0x10 != 0x01:
         chip.complain("the remap is 00 to 37 without bit 3, and then 01 or 11", sent)
@@ -149,11 +276,11 @@ def _write_ram(chip: Any, sent: bytes) -> None:
 
 
 class SSD1322(GreyChip):
-    """An SSD1322 with its glass: 480 x 128 pixels of four bits behind a window of 256 x 64 pixels, on SPI alone.
+    """An SSD1322 with its glass: 480 x 128 pixels of four bits behind a window of 256 x 64 and others, on SPI alone.
 
-    Parameters, attributes and errors are those of `simulator.SSD1306`; `column_offset` is 112, of some modules 96.
-    Arguments come with D/C high; data only after 5C. A column address is four pixels. The module stands upright under
-    A0 14 11, as vendors send it; A0 06 11 turns it by 180 degrees.
+    Parameters, attributes and errors are those of `simulator.SSD1306`; `column_offset` is 112 of 256 columns, of some
+    modules 96. Arguments come with D/C high; data only after 5C. A column address is four pixels. Modules stand upright
+    under A0 14 11, as vendors send it, that of 240x128 under A0 36 01; A0 06 11 turns the former by 180 degrees.
 
     Examples
     --------
@@ -168,7 +295,14 @@ class SSD1322(GreyChip):
     buses = ("spi",)
     arguments_are_data = True
     columns, lines, column_bytes = 120, 128, 2
-    modules: ClassVar = {(256, 64): Module(112)}
+    modules: ClassVar = {
+        (256, 64): Module(112),
+        (240, 128): Module(96, 0x20, upright=(True, True)),
+        **{(128, lines): Module(176, 0, 64 - lines) for lines in (64, 48, 32)},
+        **{(256, lines): Module(112, 0, 64 - lines) for lines in (48, 32)},
+        **{(64, lines): Module(208, 0, 64 - lines) for lines in (64, 48, 32)},
+    }
+    com_pin_settings = (0x00, 0x20)
     upright = (False, True)
     alternate_bit, swap_bit, down_bit = 0x20, 0x00, 0x01
     longest_pulse = 0xB4

@@ -1,10 +1,9 @@
-"""The SSD1327 by its datasheet: windows, remap, greys, and luma.oled's driver for it."""
+"""The SSD1327 by its datasheet: windows, remap, greys."""
 
 from __future__ import annotations
 
 import numpy as np
 import pytest
-import smbus2
 from numpy.typing import NDArray
 
 from paneldraw import simulator
@@ -153,28 +152,5 @@ def test_no_data_while_a_scroll_is_running() -> None:
 
 
 def test_a_size_that_no_module_has() -> None:
-    with pytest.raises(ValueError, match=r"128x64 is no module known here \(128x128, 96x96\)"):
+    with pytest.raises(ValueError, match=r"128x64 is no module known here \(128x128, 128x96, 96x96, 96x64\)"):
         simulator.SSD1327(128, 64)
-
-
-@pytest.mark.filterwarnings("ignore:Image.Image.getdata is deprecated")
-def test_luma(monkeypatch: pytest.MonkeyPatch) -> None:
-    """It gives a grey table half its steps, for which the chip takes the commands behind them; the picture arrives."""
-    from luma.core.interface.serial import i2c
-    from luma.oled.device import ssd1327
-    from PIL import Image
-
-    chip = simulator.SSD1327()
-    bus = simulator.I2CBus({ADDRESS: chip}, timer=None)
-    monkeypatch.setattr(smbus2, "SMBus", lambda port: bus)
-    device = ssd1327(i2c(port=1))
-    device.persist = True
-    for seed in range(2):
-        picture = greys(128, 128, seed)
-        device.display(Image.fromarray(picture * 17).convert("RGB"))
-        assert np.array_equal(chip.pixels, picture)
-    device.contrast(0x21)
-    assert chip.contrast == 0x21
-    device.hide()
-    assert not chip.pixels.any()
-    assert any("a grey table rises" in text for text in chip.violations)
