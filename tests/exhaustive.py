@@ -15,17 +15,17 @@ def cheapest(controller, cost, cells, page, column):
     the lower and the upper half of the column pointer (None: unknown), and which kind of message is open. Every byte
     of every message is one step; data stays within the visible columns.
     """
-    visible = range(controller.column_offset, controller.column_offset + controller.width)
-    top = controller.row_offset // 8
-    pages = range(top, top + controller.height // 8)
-    uppers = range((controller.ram_width + 15) // 16)
+    wide, high = controller.cell
+    left, top = controller.column_offset // wide, controller.row_offset // high
+    visible, pages = range(left, left + controller.width // wide), range(top, top + controller.height // high)
+    uppers = range((controller.ram_width // wide + 15) // 16)
     chained = cost.chained if controller.chained_control else None
     start = (frozenset(cells), page, column % 16, column // 16, "none")
     return dijkstra(
         start,
         lambda state: [
             *_data(controller, cost, state, visible),
-            *_commands(cost.command, chained, state, pages, uppers),
+            *_commands(cost.command, chained, state, pages, uppers, 1 + controller.pointer.row_argument),
         ],
     )
 
@@ -57,21 +57,22 @@ def _data(controller, cost, state, visible):
         return
     column = 16 * upper + lower
     after = column + 1
-    if after == controller.ram_width:
+    if after == controller.ram_width // controller.cell[0]:
         after = 0 if controller.pointer.wraps else None
     lower, upper = (None, None) if after is None else (after % 16, after // 16)
     opening = 0 if message in ("data", "chain") else cost.data
     yield 1 + opening, (todo - {(page, column)}, page, lower, upper, "data")
 
 
-def _commands(opening, chained, state, pages, uppers):
+def _commands(opening, chained, state, pages, uppers, page_bytes):
     todo, page, lower, upper, message = state
-    pointers = {(p, lower, upper) for p in pages} | {(page, c, upper) for c in range(16)}
-    for pointer in pointers | {(page, lower, c) for c in uppers}:
+    pointers = {(p, lower, upper): page_bytes for p in pages}
+    pointers |= {(page, c, upper): 1 for c in range(16)} | {(page, lower, c): 1 for c in uppers}
+    for pointer, size in pointers.items():
         if message != "chain":
-            yield 1 + (0 if message == "command" else opening), (todo, *pointer, "command")
+            yield size + (0 if message == "command" else opening), (todo, *pointer, "command")
         if chained is not None:
-            yield 2 + (0 if message == "chain" else chained), (todo, *pointer, "chain")
+            yield 2 * size + (0 if message == "chain" else chained), (todo, *pointer, "chain")
 
 
 def shortest(cost, pieces, page, column):

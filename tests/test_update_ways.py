@@ -7,12 +7,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from exhaustive import cheapest
 from hypothesis import given
 from hypothesis import strategies as st
 from windows import Ram
 
 from paneldraw import Panel, simulator
-from paneldraw.controllers import SH1106, SSD1306, SSD1322, SSD1327, PagePointer
+from paneldraw.controllers import SH1106, SH1122, SSD1306, SSD1322, SSD1327, PagePointer
 from paneldraw.transports import I2CTransport
 from paneldraw.transports.base import CHAINED, COMMAND, DATA, Cost
 
@@ -33,7 +34,8 @@ class PointedRam:
 
     def __init__(self, controller, forgets=False):
         self.pointer, self.forgets = controller.pointer, forgets
-        self.bytes = np.zeros((controller.ram_height // 8, controller.ram_width), np.uint8)
+        wide, high = controller.cell
+        self.bytes = np.zeros((controller.ram_height // high, controller.ram_width // wide), np.uint8)
         self.row = self.column = None
         self.waiting = 0
 
@@ -121,6 +123,35 @@ def test_every_form_of_pointer_is_followed(package, data, form, cost, glass):
             ram.take(kind, bytes(payload))
         planner.sent()
         np.testing.assert_array_equal(ram.bytes[:rows, left : left + width], frame)
+
+
+@given(data=st.data(), cost=st.sampled_from([I2C, SPI]), chained=st.booleans())
+def test_rows_of_nibbles_are_written_in_the_fewest_bytes(package, data, cost, chained):
+    """A part of an SH1122's RAM small enough for an exhaustive search: B0 takes the row, a cell holds two pixels."""
+    left, width, rows = data.draw(st.integers(0, 9)), data.draw(st.integers(8, 30)), data.draw(st.integers(1, 3))
+    controller = replace(
+        SH1122(), width=2 * width, height=rows, column_offset=2 * left, row_offset=60, chained_control=chained
+    )
+    planner, ram = importlib.import_module("paneldraw.update").Planner(controller, cost), PointedRam(controller)
+    planner.restart()
+
+    def send():
+        plan = planner.plan()
+        for kind, payload in plan:
+            ram.take(kind, bytes(payload))
+        planner.sent()
+        return plan.cost
+
+    send()
+    cells = st.tuples(st.integers(0, rows - 1), st.integers(0, width - 1))
+    for most in (1, 6):
+        changed = data.draw(st.sets(cells, min_size=1, max_size=most))
+        for cell in changed:
+            planner.fresh[cell] += 1
+        wanted = {(60 + row, left + column) for row, column in changed}
+        fewest = cheapest(controller, cost, wanted, ram.row, ram.column)
+        assert send() == fewest
+    np.testing.assert_array_equal(ram.bytes[60 : 60 + rows, left : left + width], planner.fresh)
 
 
 @pytest.mark.parametrize(

@@ -5,20 +5,29 @@ from __future__ import annotations
 from typing import Final
 
 from paneldraw.controllers.chip import Chip
-from paneldraw.controllers.gray import SSD1322, SSD1327
+from paneldraw.controllers.gray import SH1122, SSD1322, SSD1325, SSD1327, SSD1362
 from paneldraw.controllers.lcd import PCD8544, ST7565, ST7567, ST7920, UC1609, UC1701
-from paneldraw.controllers.oled import SH1106, SSD1306, SSD1309
+from paneldraw.controllers.oled import CH1115, SH1106, SH1107, SSD1305, SSD1306, SSD1309, SSD1312, SSD1315, SSD1316
 from paneldraw.controllers.record import BUSES, Contrast, Controller, PagePointer, Window
 
 __all__ = [
     "BUSES",
+    "CH1115",
     "CHIPS",
     "PCD8544",
     "SH1106",
+    "SH1107",
+    "SH1122",
+    "SSD1305",
     "SSD1306",
     "SSD1309",
+    "SSD1312",
+    "SSD1315",
+    "SSD1316",
     "SSD1322",
+    "SSD1325",
     "SSD1327",
+    "SSD1362",
     "ST7565",
     "ST7567",
     "ST7920",
@@ -35,9 +44,16 @@ CHIPS: Final[dict[str, Chip]] = {
     chip.name.lower(): chip
     for chip in (
         SSD1306,
+        SSD1305,
         SSD1309,
+        SSD1312,
+        SSD1315,
+        SSD1316,
         SH1106,
+        SH1107,
+        CH1115,
         SSD1322,
+        SSD1325,
         SSD1327,
         PCD8544,
         ST7565,
@@ -45,6 +61,8 @@ CHIPS: Final[dict[str, Chip]] = {
         UC1701,
         UC1609,
         ST7920,
+        SSD1362,
+        SH1122,
     )
 }
 """Chips by the name that a panel's URL uses."""

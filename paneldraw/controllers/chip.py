@@ -25,7 +25,10 @@ _CHOICES: Final[Mapping[str, Sequence[int]]] = MappingProxyType(
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Module:
-    """One module: a chip's glass, its wiring and which way up it is. What `Chip.init` and `Chip.window` are made of."""
+    """One module: a chip's glass, its wiring and which way up it is. What `Chip.init` and `Chip.window` are made of.
+
+    ``upright`` is the argument of ``A0`` of a module that is bonded otherwise than the chip's common one.
+    """
 
     chip: Chip
     width: int
@@ -41,22 +44,29 @@ class Module:
     duty: int = 65
     level: int = 0
     turned: bool = False
+    upright: int | None = None
     mirror_x: bool = False
     mirror_y: bool = False
 
     @property
+    def _driven(self) -> int:
+        return self.width if self.chip.transposed else self.height
+
+    @property
     def multiplex(self) -> str:
         """How many lines are driven, less one, in hex."""
-        return f"{self.height - 1:02X}"
+        return f"{self._driven - 1:02X}"
 
     @property
     def segments(self) -> str:
         """Command that maps columns to segments, in hex."""
-        return f"{self.chip.upright[0] ^ self.mirror_x ^ self.turned:02X}"
+        mirrored = self.mirror_y if self.chip.transposed else self.mirror_x
+        return f"{self.chip.upright[0] ^ mirrored ^ self.turned:02X}"
 
     @property
     def _lines(self) -> int:
-        return self.chip.upright[1] ^ 8 * (self.mirror_y ^ self.turned)
+        mirrored = self.mirror_x if self.chip.transposed else self.mirror_y
+        return self.chip.upright[1] ^ 8 * (mirrored ^ self.turned)
 
     @property
     def lines(self) -> str:
@@ -67,13 +77,21 @@ class Module:
     def remap(self) -> int:
         """Argument of ``A0`` of chips that keep both directions in it."""
         upright, mirror_x, mirror_y = self.chip.remap
-        return upright ^ mirror_x * self.mirror_x ^ mirror_y * self.mirror_y
+        return (self.upright or upright) ^ mirror_x * self.mirror_x ^ mirror_y * self.mirror_y
+
+    @property
+    def shift(self) -> int:
+        """Lines by which the first row of the RAM must be shifted to be the glass's first line."""
+        upwards = bool(self._lines & 8) if not self.chip.remap[0] else bool(self.remap & self.chip.remap[2])
+        first = self.column_offset if self.chip.transposed else self.first_com
+        if upwards:
+            first += self._driven - (self.chip.reversed_lines or self._driven)
+        return (first if upwards else -first) % self.chip.ram[0 if self.chip.transposed else 1]
 
     @property
     def offset(self) -> str:
-        """Display offset that brings the first row of the RAM to the glass's first line, in hex."""
-        upwards = bool(self._lines & 8) if not self.chip.remap[0] else bool(self.remap & self.chip.remap[2])
-        return f"{(self.first_com if upwards else -self.first_com) % self.chip.ram[1]:02X}"
+        """Display offset that shifts by so many lines, in hex."""
+        return f"{self.shift:02X}"
 
     @property
     def start_line(self) -> str:
@@ -95,7 +113,7 @@ class Chip:
     ram : (int, int)
         Columns and rows of its RAM, in pixels.
     modules : mapping of (int, int) to mapping
-        Known sizes, the first being the default, and what is special in their wiring, by the name of an override.
+        Known sizes, the first being the default, and what is special in their wiring, by the names of `Module`.
     init : callable
         Makes of a `Module` the commands that configure it, as `record.commands` reads them.
     overrides : tuple of str
@@ -109,6 +127,12 @@ class Chip:
         RAM. Default: all of the RAM's.
     upright : (int, int)
         The commands for segments and lines under which the common module is upright. Default: ``A1 C8``.
+    reversed_lines : int
+        So many lines a reversed scan begins at the end of, where they are not as many as are driven. Default: 0.
+    transposed : bool
+        Whether COM lines are the columns of the RAM, which ``column_offset`` counts then. Default: False.
+    wide : int
+        Columns of the RAM of look-alikes, whose modules begin at a later column. Default: 0, there are none.
     remap : (int, int, int)
         Of chips that have both in the argument of ``A0``: its value for the common module, and the bits that turn over
         columns and lines. Default: none.
@@ -138,6 +162,9 @@ class Chip:
     mirrors: bool = True
     fold: int = 1 << 10
     upright: tuple[int, int] = (0xA1, 0xC8)
+    reversed_lines: int = 0
+    transposed: bool = False
+    wide: int = 0
     remap: tuple[int, int, int] = (0, 0, 0)
     window: Callable[[Module], Window] | None = None
     pointer: PagePointer | None = None
@@ -186,8 +213,8 @@ class Chip:
             Visible pixels. Default: the first of `sizes`. A size that is none of them needs the offset, and the COM
             pins where the chip has them.
         column_offset : int, optional
-            First visible RAM column, in pixels, of the module the right way up. Default: what modules of this size
-            have.
+            First visible RAM column, in pixels, of the module the right way up; of the SH1107 with no display offset.
+            Default: what modules of this size have.
         first_com : int, optional
             First COM line that the glass is on. Default: what modules of this size have.
         com_pins : int, optional
@@ -237,16 +264,19 @@ class Chip:
         module = Module(
             chip=self, width=size[0], height=size[1], mirror_x=mirror_x, mirror_y=mirror_y, **{**known, **given}
         )
+        columns = self.ram[0]
+        if module.column_offset > self._most(size[0], columns):
+            columns = self.wide
+        left, top = self._place(module, columns)
         return Controller(
             name=self.name.lower(),
             width=module.width,
             height=module.height,
             init=commands(self.init(module)),
-            ram_width=self.ram[0],
+            ram_width=columns,
             ram_height=self.ram[1],
-            column_offset=self.ram[0] - module.width - module.column_offset
-            if mirror_x and self.mirrors
-            else module.column_offset,
+            column_offset=left,
+            row_offset=top,
             bands=2 if module.height > self.fold else 1,
             mirror_x=mirror_x and not self.mirrors,
             mirror_y=mirror_y and not self.mirrors,
@@ -266,6 +296,17 @@ class Chip:
     def _needed(self) -> list[str]:
         """What a module of an unknown size must be told."""
         return ["column_offset", *(["com_pins"] if "com_pins" in self.overrides else [])]
+
+    def _most(self, width: int, columns: int) -> int:
+        """The last column that a module can begin at."""
+        return columns - 1 if self.transposed else columns - width
+
+    def _place(self, module: Module, columns: int) -> Size:
+        """Column and row of the RAM that a module's picture begins at: mirrored segments count from the other end."""
+        if self.transposed:  # COM lines are shifted to where the RAM begins
+            return 0, self.ram[1] - module.height if module.mirror_y else 0
+        left = module.column_offset
+        return columns - module.width - left if module.mirror_x and self.mirrors else left, 0
 
     def _size(self, width: int | None, height: int | None) -> Size:
         first = self.sizes[0]
@@ -287,9 +328,9 @@ class Chip:
             raise ValueError(
                 f"size of the {self.name} must be {sizes}, not {width}x{height}; for another one give {needed} too"
             )
-        offset = given.get("column_offset", 0)
-        if not 0 <= offset <= self.ram[0] - width:
-            raise ValueError(f"column_offset must be 0 to {self.ram[0] - width}, not {offset}")
+        offset, last = given.get("column_offset", 0), self._most(width, max(self.ram[0], self.wide))
+        if not 0 <= offset <= last:
+            raise ValueError(f"column_offset must be 0 to {last}, not {offset}")
         if not 0 <= given.get("first_com", 0) < self.ram[1]:
             raise ValueError(f"first_com must be 0 to {self.ram[1] - 1}, not {given['first_com']}")
         for name, allowed in {**_CHOICES, **self.choices}.items():

@@ -49,7 +49,7 @@ def test_settings_reach_the_chip():
 
 
 def test_sizes_and_offsets_that_no_module_has():
-    with pytest.raises(ValueError, match="128x64, not 64x48"):
+    with pytest.raises(ValueError, match="128x64, 128x32, 72x40 or 64x32, not 64x48"):
         SH1106(64, 48)
     with pytest.raises(ValueError, match="column_offset must be 0 to 4"):
         SH1106(column_offset=5)

@@ -14,6 +14,8 @@ MODULES = {
     (128, 64): (0, 0x3F, 0x12),
     (128, 32): (0, 0x1F, 0x02),
     (96, 16): (0, 0x0F, 0x02),
+    (96, 39): (32, 0x26, 0x12),
+    (96, 40): (0, 0x27, 0x02),
     (72, 40): (28, 0x27, 0x12),
     (64, 48): (32, 0x2F, 0x12),
     (64, 32): (32, 0x1F, 0x12),
@@ -53,7 +55,7 @@ def test_mirrored_glass(size, mirror):
 
 
 def test_a_size_that_no_module_has_names_those_that_are():
-    sizes = "128x64, 128x32, 96x16, 72x40, 64x48, 64x32 or 48x64"
+    sizes = "128x64, 128x32, 96x16, 96x39, 96x40, 72x40, 64x48, 64x32 or 48x64"
     with pytest.raises(ValueError, match=f"{sizes}, not 100x50; for another one give column_offset= and com_pins= too"):
         SSD1306(100, 50)
     with pytest.raises(ValueError, match="com_pins="):

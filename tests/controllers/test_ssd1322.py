@@ -133,8 +133,8 @@ def test_mirrored_glass(mirror, remap):
 
 
 def test_what_cannot_be():
-    with pytest.raises(ValueError, match="must be 256x64, not 128x64"):
-        SSD1322(128, 64)
+    with pytest.raises(ValueError, match="64x48 or 64x32, not 200x64; for another one give column_offset= too"):
+        SSD1322(200, 64)
     with pytest.raises(ValueError, match="multiples of 4"):
         SSD1322(column_offset=98)
     with pytest.raises(ValueError, match=r"it is on SPI, such as spi://0.0\?chip=ssd1322"):

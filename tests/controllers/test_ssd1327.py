@@ -107,5 +107,7 @@ def test_a_locked_chip_is_opened():
 
 
 def test_a_size_that_no_module_has():
-    with pytest.raises(ValueError, match="128x128 or 96x96, not 128x64; for another one give column_offset= too"):
+    with pytest.raises(
+        ValueError, match="128x128, 96x96, 128x96 or 96x64, not 128x64; for another one give column_offset= too"
+    ):
         SSD1327(128, 64)

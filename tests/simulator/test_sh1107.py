@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-import smbus2
 
 from paneldraw import simulator
 
@@ -66,22 +65,4 @@ def test_vertical_mode_goes_down_the_pages_and_to_the_next_column() -> None:
     commands(chip, "20 BE 03 10")
     chip.write(bytes.fromhex("40 05 06"))
     assert chip.ram[14, 3:5].tolist() == [5, 6]
-    assert chip.violations == []
-
-
-@pytest.mark.filterwarnings("ignore:Image.Image.getdata is deprecated")
-@pytest.mark.parametrize("size", [(64, 128), (80, 128), (128, 128)])
-def test_luma(size: tuple[int, int], monkeypatch: pytest.MonkeyPatch) -> None:
-    from luma.core.interface.serial import i2c
-    from luma.oled.device import sh1107
-    from PIL import Image
-
-    chip = simulator.SH1107(*size)
-    bus = simulator.I2CBus({0x3C: chip}, timer=None)
-    monkeypatch.setattr(smbus2, "SMBus", lambda port: bus)
-    device = sh1107(i2c(port=1), *size)
-    device.persist = True
-    picture = random_picture(*size, 3)
-    device.display(Image.fromarray(picture * 255).convert("1"))
-    assert np.array_equal(chip.pixels, picture)
     assert chip.violations == []

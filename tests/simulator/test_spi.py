@@ -404,27 +404,6 @@ def test_faults_that_cannot_be(bus: simulator.SPIBus, options: dict[str, int]) -
 
 
 @pytest.mark.filterwarnings("ignore:Image.Image.getdata is deprecated")
-@pytest.mark.parametrize("name", ["SSD1306", "SSD1309", "SH1106", "SSD1322", "SSD1327"])
-def test_luma(name: str) -> None:
-    from luma.core.interface.serial import spi
-    from luma.oled import device as devices
-
-    chip = getattr(simulator, name)()
-    bus = simulator.SPIBus(chip, timer=None)
-    device = getattr(devices, name.lower())(spi(spi=bus.spi, gpio=bus.gpio), chip.width, chip.height)
-    device.persist = True
-    step = 255 // chip.max_level
-    for seed in range(3):
-        levels = np.random.default_rng(seed).integers(0, chip.max_level + 1, (chip.height, chip.width), np.uint8)
-        device.display(Image.fromarray(levels * step).convert(device.mode))
-        assert np.array_equal(chip.pixels, levels)
-    device.contrast(0x21)
-    assert chip.contrast == 0x21
-    device.hide()
-    assert not chip.pixels.any()
-
-
-@pytest.mark.filterwarnings("ignore:Image.Image.getdata is deprecated")
 def test_luma_with_a_chip_select_of_its_own() -> None:
     from luma.core.interface.serial import gpio_cs_spi
     from luma.oled.device import sh1106

@@ -1,4 +1,4 @@
-"""The SSD1322 on SPI: arguments as data, the remap, windows of four pixels a column, and luma.oled's driver for it."""
+"""The SSD1322 on SPI: arguments as data, the remap, windows of four pixels a column."""
 
 from __future__ import annotations
 
@@ -85,30 +85,3 @@ def test_what_endangers_the_picture() -> None:
 def test_it_is_not_for_i2c() -> None:
     with pytest.raises(ValueError, match="SSD1322 cannot sit on I2C, but on SPI"):
         simulator.I2CBus({0x3C: simulator.SSD1322()})
-
-
-class Wire:
-    """What luma asks of an SPI interface, straight to the chip."""
-
-    def __init__(self, chip: simulator.SSD1322) -> None:
-        self.chip = chip
-
-    def command(self, *sent: int) -> None:
-        self.chip.transfer(bytes(sent), data=False)
-
-    def data(self, sent: list[int]) -> None:
-        self.chip.transfer(bytes(sent), data=True)
-
-
-@pytest.mark.filterwarnings("ignore:Image.Image.getdata is deprecated")
-def test_luma() -> None:
-    from luma.oled.device import ssd1322
-    from PIL import Image
-
-    chip = simulator.SSD1322()
-    device = ssd1322(Wire(chip), mode="RGB")
-    device.persist = True
-    picture = greys(3)
-    device.display(Image.fromarray(picture * 17).convert("RGB"))
-    assert np.array_equal(chip.pixels, picture)
-    assert chip.violations == []
