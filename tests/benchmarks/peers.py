@@ -1,4 +1,4 @@
-"""Drivers by others for a 128 x 64 SSD1306, each on a bus of our choice."""
+"""Drivers by others for a 128 x 64 SSD1306 and an SSD1327, each on a bus of our choice."""
 
 from __future__ import annotations
 
@@ -17,16 +17,16 @@ Write = Callable[[int, Any], object]
 Mask = npt.NDArray[np.bool_]
 
 
-def luma(bus: Any) -> Any:
+def luma(bus: Any, name: str = "ssd1306", size: tuple[int, int] = (WIDTH, HEIGHT)) -> Any:
     """luma.oled's device on an object with smbus2's interface. It writes whole messages only if it opens the bus."""
     import smbus2
     from luma.core.interface.serial import i2c
-    from luma.oled.device import ssd1306
+    from luma.oled import device as devices
 
     real: Any = smbus2.SMBus
     smbus2.SMBus = lambda port: bus
     try:
-        device = ssd1306(i2c(port=1), WIDTH, HEIGHT)
+        device = getattr(devices, name)(i2c(port=1), *size)
     finally:
         smbus2.SMBus = real
     device.persist = True

@@ -1,4 +1,4 @@
-"""CPU time to bring a 128 x 64 frame onto an SSD1306, on a bus that takes every byte and forgets it."""
+"""CPU time to bring a frame onto an SSD1306 or an SSD1327, on a bus that takes every byte and forgets it."""
 
 from __future__ import annotations
 
@@ -11,11 +11,12 @@ from measure import Against, Contest, Names, Row
 from peers import HEIGHT, WIDTH
 
 from paneldraw import Framebuffer, Panel
-from paneldraw.controllers import SSD1306
+from paneldraw.controllers import SSD1306, SSD1327
 from paneldraw.transports import I2CTransport, SPITransport
 
 LUMA = "luma.oled"
 LUMA_SPI = "luma.oled on SPI"
+LUMA_GRAY = "luma.oled of 16 grays"
 ADAFRUIT = "Adafruit"
 DISPLAYIO = "displayio"
 
@@ -39,6 +40,12 @@ def spi_row(name: str, one: str, other: str, over_luma: float) -> Row:
     return Row(name, 2, f"show_spi({one}); show_spi({other})", (against,))
 
 
+def gray_row(name: str, one: str, other: str, over_luma: float | None = None) -> Row:
+    """Show two pictures of 128 x 128 pixels and 16 grays in turn."""
+    against = Against(LUMA_GRAY, f"display({one}_image); display({other}_image)", over_luma)
+    return Row(name, 2, f"show_gray({one}); show_gray({other})", (against,))
+
+
 ROWS = [
     row("every pixel changed", "noise", "inverse", 20, displayio="dirty(); show(); dirty(); show()"),
     row("another picture", "lines", "circles", 10),
@@ -53,6 +60,8 @@ ROWS = [
     row("nothing changed", "lines", "lines", 20, displayio="show(); show()"),
     spi_row("every pixel changed, on SPI", "noise", "inverse", 20),
     spi_row("one pixel changed, on SPI", "lines", "lines_and_a_pixel", 20),
+    gray_row("every pixel changed, 16 grays", "gray_noise", "gray_inverse", 20),
+    gray_row("one pixel changed, 16 grays", "gray_noise", "gray_noise_and_a_pixel"),
 ]
 
 
@@ -68,6 +77,18 @@ def pictures() -> dict[str, Framebuffer]:
         made["circles"].circle(x1, y1, 10)
     made["lines_and_a_pixel"].pixels[:] = made["lines"].pixels
     made["lines_and_a_pixel"].pixel(64, 32, 1, op="xor")
+    return made
+
+
+def gray_pictures() -> dict[str, Framebuffer]:
+    """Of 16 grays: noise, and what differs from it in all pixels or in one."""
+    size = SSD1327.sizes[0]
+    made = {name: Framebuffer(*size, 4) for name in ("gray_noise", "gray_inverse", "gray_noise_and_a_pixel")}
+    made["gray_noise"].pixels[:] = made["gray_noise_and_a_pixel"].pixels[:] = np.random.default_rng(1).integers(
+        0, 16, size[::-1]
+    )
+    made["gray_inverse"].pixels[:] = 15 - made["gray_noise"].pixels
+    made["gray_noise_and_a_pixel"].pixels[64, 32] ^= 1
     return made
 
 
@@ -105,7 +126,8 @@ def names() -> Names:
     """The pictures, and the `show` of a panel."""
     bus = Forgetful()
     show_spi = Panel(SSD1306(WIDTH, HEIGHT), SPITransport(spi=bus, pins=bus)).show
-    return {**pictures(), "show": Panel(SSD1306(WIDTH, HEIGHT), I2CTransport(bus)).show, "show_spi": show_spi}
+    show, show_gray = (Panel(chip, I2CTransport(bus)).show for chip in (SSD1306(WIDTH, HEIGHT), SSD1327()))
+    return {**pictures(), **gray_pictures(), "show": show, "show_spi": show_spi, "show_gray": show_gray}
 
 
 def images() -> Names:
@@ -121,6 +143,12 @@ def luma() -> Names:
 def luma_spi() -> Names:
     """Its device on SPI."""
     return {"display": peers.luma_spi(Forgetful(), Forgetful()).display, **images()}
+
+
+def luma_gray() -> Names:
+    """Its device of 16 grays on I2C, which wants colors and makes grays of them."""
+    colored = {f"{name}_image": fb.to_image().convert("RGB") for name, fb in gray_pictures().items()}
+    return {"display": peers.luma(Forgetful(), "ssd1327", SSD1327.sizes[0]).display, **colored}
 
 
 def linux_write() -> peers.Write:
@@ -157,4 +185,5 @@ def displayio() -> Names:
 
 def run(rounds: int) -> None:
     """Print the group's rows."""
-    Contest(names(), {LUMA: luma, LUMA_SPI: luma_spi, ADAFRUIT: adafruit, DISPLAYIO: displayio}, rounds).run_all(ROWS)
+    by_others = {LUMA: luma, LUMA_SPI: luma_spi, LUMA_GRAY: luma_gray, ADAFRUIT: adafruit, DISPLAYIO: displayio}
+    Contest(names(), by_others, rounds).run_all(ROWS)
