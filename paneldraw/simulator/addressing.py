@@ -31,7 +31,10 @@ class Packing(NamedTuple):
 
 
 def _nibbles(data: Bytes) -> Bytes:
-    return np.stack((data >> 4, data & 0x0F), axis=-1)
+    pairs = np.empty((data.size, 2), np.uint8)
+    np.right_shift(data, 4, out=pairs[:, 0])
+    np.bitwise_and(data, 0x0F, out=pairs[:, 1])
+    return pairs
 
 
 PAGES = Packing(1, 8, 1, lambda data: data)
