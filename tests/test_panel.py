@@ -539,7 +539,7 @@ def test_a_chip_and_a_bus_are_enough(controller):
 
 def test_what_is_no_controller_or_no_transport_says_what_to_write():
     bus = simulator.I2CBus({0x3C: simulator.SSD1306()})
-    with pytest.raises(ValueError, match=r"not 'ssd1360'; did you mean ssd130\d\?"):
+    with pytest.raises(ValueError, match=r"not 'ssd1360'; did you mean ssd1362\?"):
         Panel("ssd1360", bus)
     with pytest.raises(TypeError, match=r"controller must be a Controller, such as SSD1306\(128, 64\)"):
         Panel(bus, SSD1306())

@@ -55,14 +55,14 @@ CHIPS: Final[dict[str, Chip]] = {
         SSD1322,
         SSD1325,
         SSD1327,
+        SSD1362,
+        SH1122,
         PCD8544,
         ST7565,
         ST7567,
         UC1701,
         UC1609,
         ST7920,
-        SSD1362,
-        SH1122,
     )
 }
 """Chips by the name that a panel's URL uses."""
