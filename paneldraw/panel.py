@@ -18,7 +18,7 @@ import numpy.typing as npt
 
 from paneldraw import urls
 from paneldraw.controllers import BUSES, CHIPS, Controller
-from paneldraw.controllers.packing import PACK
+from paneldraw.controllers.packing import packer
 from paneldraw.errors import PanelError, PanelTimeoutError, TransportError, did_you_mean
 from paneldraw.framebuffer import Framebuffer, pictures
 from paneldraw.leaving import arrange, follow
@@ -26,7 +26,7 @@ from paneldraw.pacing import Frames
 from paneldraw.sender import Sender
 from paneldraw.transports import I2CTransport, Plan, SerialTransport, SPITransport, Transport
 from paneldraw.transports.synced import SyncedTransport
-from paneldraw.update import Planner
+from paneldraw.update import RegisterPlanner, planner_for
 
 Levels = npt.NDArray[np.uint8]
 T = TypeVar("T")
@@ -35,7 +35,10 @@ Updates = Literal["least", "plain", "whole"]
 
 _ON_CLOSE: Final = ("keep", "clear", "off")
 _ROTATIONS: Final = (0, 90, 180, 270)
-_WIRING: Final = ("column_offset", "first_com", "com_pins", "duty")
+_WIRING: Final = (
+    *("column_offset", "first_com", "com_pins", "duty"),
+    *("order", "first_block", "block_rotation", "mirror_blocks", "board"),
+)
 """What a simulated module is wired with, beside a driver that believes it."""
 _RETRIES: Final = 6
 _PATIENCE: Final = 0.02
@@ -189,6 +192,9 @@ class Panel:
         if wire in BUSES and wire not in controller.buses:
             buses = " or ".join(BUSES[bus] for bus in controller.buses)
             raise ValueError(f"controller must be one that {BUSES[wire]} reaches: the {controller.name} is on {buses}")
+        if controller.registers is not None and not controller.registers.chips and wire != "i2c":
+            advice = "which this transport puts before all that it sends; use I2CTransport"
+            raise ValueError(f"transport must send no control bytes to the {controller.name}, {advice}")
         if refresh is not None and not refresh > 0:
             raise ValueError(f"refresh must be seconds above 0, or None, not {refresh!r}")
         self.controller = controller
@@ -202,9 +208,9 @@ class Panel:
         self._sender: Sender | None = None
         self._refresh = refresh
         self._wire = SyncedTransport(transport) if controller.synced else transport
-        self._planner = Planner(controller, self._wire.cost, updates)
+        self._planner = planner_for(controller, self._wire.cost, updates)
         able = controller.inverse is not None and not (controller.mirror_x or controller.mirror_y)
-        self._pack = PACK[controller.packing] if able and controller.bands == 1 else None
+        self._pack = packer(controller) if able and controller.bands == 1 else None
         self._contrast = None if contrast is None else _checked_contrast(controller, contrast)
         self._drive: tuple[bytes, ...] = ()
         self._kept: list[bytes] = []
@@ -436,6 +442,9 @@ class Panel:
         if not command:
             raise ValueError("command must not be empty")
         sent = bytes(command)
+        if self.controller.registers is not None and len(sent) % self.controller.registers.command_bytes:
+            size = self.controller.registers.command_bytes
+            raise ValueError(f"command must be of {size} bytes, or several of them, not {sent.hex(' ').upper()}")
         if keep:
             self._kept.append(sent)
         self._change(lambda: (sent,))
@@ -562,7 +571,7 @@ class Panel:
         """Pack levels for a chip that cannot mirror or invert, or has bands of the picture beside each other."""
         chip = self.controller
         pixels = pixels[:: -1 if chip.mirror_y else 1, :: -1 if chip.mirror_x else 1]
-        PACK[chip.packing](np.hstack(np.split(pixels, chip.bands)), max_level, packed)
+        packer(chip)(np.hstack(np.split(pixels, chip.bands)), max_level, packed)
         if self._inverted and chip.inverse is None:
             np.invert(packed, out=packed)
 
@@ -634,6 +643,8 @@ class Panel:
                 self._restore()  # which knows all settings
                 self._command(*commands())
                 self._ready = True
+            if self._shown and isinstance(self._planner, RegisterPlanner):
+                self._send()  # as the setting has the picture, where the chip does not
 
         if self._postponed(lambda: self._do(operation)):
             return
@@ -691,6 +702,8 @@ class Panel:
         ready, self._ready = self._ready, False
         if not ready:
             wire, messages = self._start()
+        if isinstance(self._planner, RegisterPlanner):
+            self._planner.adjust(self._inverted, self._contrast)
         plan, sent = self._bring()
         wire += sent
         if not (self._lit or self._asleep):
@@ -716,6 +729,9 @@ class Panel:
     def _command(self, *commands: bytes | float) -> Sent:
         """Send commands, each with its arguments, and make the pauses among them."""
         wire = messages = 0
+        if isinstance(self._planner, RegisterPlanner):
+            plan = self._planner.commands(*(command for command in commands if isinstance(command, bytes)))
+            return Sent(self._wire.batch(plan) if plan.count else 0, plan.count)
         waiting = b""
         for command in commands:
             if isinstance(command, float):
@@ -761,7 +777,8 @@ class Panel:
         """Note which levels are lit; return the command for it, or send the picture turned over."""
         chip, before, self._inverted = self.controller, self._inverted, inverted
         if chip.inverse is not None:
-            return (chip.inverse if inverted else chip.normal,)
+            command = chip.inverse if inverted else chip.normal
+            return (command,) if command else ()
         if before != inverted:
             np.invert(self._planner.fresh, out=self._planner.fresh)
             if self._shown:
@@ -817,7 +834,8 @@ def _carrier(transport: Any, controller: Controller) -> Transport:
     ):
         if "://" in str(transport):
             raise ValueError(f"transport must be a transport or a bus, not a URL: write open_panel({transport!r})")
-        return I2CTransport(transport)
+        chip = CHIPS.get(controller.name)
+        return I2CTransport(transport, chip.address if chip else 0x3C)
     raise TypeError(f"transport must be a transport, such as I2CTransport(bus=1), or an I2C bus, not {transport!r}")
 
 
@@ -925,6 +943,9 @@ def _simulated(wanted: urls.PanelURL) -> tuple[Transport, Any]:
     chip = getattr(simulator, controller.name.upper())(controller.width, controller.height, **wiring)
     if "i2c" in controller.buses:
         return I2CTransport(simulator.I2CBus({wanted.address: chip}), wanted.address), chip
-    bus = simulator.SPIBus(chip, dc=None if controller.synced else 24)
+    lines: dict[str, Any] = {"dc": None, "reset": None} if controller.registers else {}
+    if controller.synced:
+        lines = {"dc": None}
+    bus = simulator.SPIBus(chip, **lines)
     bus.spi.cshigh = controller.synced
-    return SPITransport(spi=bus.spi, pins=bus.pins, dc=bus.dc), chip
+    return SPITransport(spi=bus.spi, pins=bus.pins, **lines), chip

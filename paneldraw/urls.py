@@ -14,7 +14,6 @@ if TYPE_CHECKING:
     from firmware_protocol import HelloReply
 
 _CHIP: Final = "ssd1306"
-_ADDRESS: Final = 0x3C
 _FORMS: Final = {
     "i2c": "i2c://1/0x3c?chip=ssd1306&size=128x64&rotate=180",
     "serial": "serial:///dev/ttyACM0?baudrate=1000000",
@@ -24,7 +23,8 @@ _FORMS: Final = {
 _PYSERIAL: Final = ("rfc2217", "socket", "loop")
 _PANEL: Final = {"rotate": "180", "contrast": "200", "on_close": "", "updates": ""}
 """Settings of `Panel`, each with an example where it is a number."""
-_SWITCHES: Final = ("mirror_x", "mirror_y", "charge_pump", "internal_reference", "chained_control")
+_SWITCHES: Final = ("mirror_x", "mirror_y", "mirror_blocks", "charge_pump", "internal_reference", "chained_control")
+_TEXTS: Final = ("order", "first_block", "block_rotation", "board")
 _YES: Final = {"1": True, "true": True, "yes": True, "0": False, "false": False, "no": False}
 _MODULE: Final = ("size", *dict.fromkeys(name for chip in CHIPS.values() for name in chip.parameters))
 _SERIAL: Final = ("baudrate", "chip", *_MODULE, *_PANEL)
@@ -52,7 +52,7 @@ class PanelURL:
     scheme: str
     controller: Controller
     bus: int | str = 1
-    address: int = _ADDRESS
+    address: int = 0x3C
     module: dict[str, Any] = field(default_factory=dict)
     transport: dict[str, Any] = field(default_factory=dict)
     panel: dict[str, Any] = field(default_factory=dict)
@@ -121,9 +121,11 @@ def parse(url: str) -> PanelURL | SerialURL:
         query = _query(parts, *_MODULE, *_PANEL)
         if parts.path.strip("/"):
             raise ValueError(f"url must have the form {_FORMS['sim']}, not {url!r}")
+        controller = _controller(parts.netloc or _CHIP, query)
         return PanelURL(
             "sim",
-            _controller(parts.netloc or _CHIP, query),
+            controller,
+            address=CHIPS[controller.name].address,
             module=_module(query),
             panel=_settings(query, _PANEL),
         )
@@ -159,7 +161,7 @@ def _i2c(parts: SplitResult) -> PanelURL:
         raise ValueError(f"url must have the form {_FORMS['i2c']}, not {parts.geturl()!r}")
     place, mux = _multiplexer(place)
     controller = _controller(query.get("chip", _CHIP), query)
-    number = _address(address) if address else _ADDRESS
+    number = _address(address) if address else CHIPS[controller.name].address
     paired = {"data_address": number + 1} if "i2c-pair" in controller.buses else {}
     return PanelURL(
         "i2c",
@@ -195,7 +197,11 @@ def _spi(parts: SplitResult) -> PanelURL:
     if not (bus.isdecimal() and device.isdecimal()) or parts.path.strip("/"):
         raise ValueError(f"url must have the form {_FORMS['spi']}, not {parts.geturl()!r}")
     controller = _on("spi", _controller(query.get("chip", _CHIP), query))
-    of_chip = {"speed": controller.speed} | ({"dc": None, "cs_high": True} if controller.synced else {})
+    of_chip: dict[str, Any] = {"speed": controller.speed}
+    if controller.synced:
+        of_chip |= {"dc": None, "cs_high": True}
+    elif controller.registers:  # LED chips have no such pins
+        of_chip |= {"dc": None, "reset": None}
     said = _settings(query, {"speed": "8000000"}) | _lines(query, *lines)
     return PanelURL(
         "spi",
@@ -271,12 +277,17 @@ def _size(query: dict[str, str]) -> tuple[int, ...]:
 def _module(query: dict[str, str]) -> dict[str, Any]:
     """What is said of the module beside its size."""
     said = [name for name in query if name in _MODULE and name != "size"]
-    return {name: _switch(query, name) if name in _SWITCHES else _number(query[name], name, "2") for name in said}
+    texts = {name: query[name] for name in said if name in _TEXTS}
+    switches = {name: _switch(query, name) for name in said if name in _SWITCHES}
+    numbers = {name: _number(query[name], name, "2") for name in said if name not in (*_TEXTS, *_SWITCHES)}
+    return texts | switches | numbers
 
 
 def _on(bus: str, controller: Controller) -> Controller:
     if bus not in controller.buses:
-        forms = " or ".join(_FORMS[bus.removesuffix("-pair")].partition("?")[0] for bus in controller.buses)
+        address = f"{CHIPS[controller.name].address:#x}"
+        places = (_FORMS[bus.removesuffix("-pair")].partition("?")[0] for bus in controller.buses)
+        forms = " or ".join(place.replace("0x3c", address) for place in places)
         buses = " and ".join(BUSES[bus] for bus in controller.buses)
         complaint = f"chip must be one that {BUSES[bus]} reaches, not {controller.name!r}: it is on {buses}"
         raise ValueError(f"{complaint}, such as {forms}?chip={controller.name}")

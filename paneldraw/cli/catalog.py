@@ -19,6 +19,11 @@ PARAMETERS = {
     "duty": "LCD: the duty that the module's pins choose, 65, 55, 53, 49 or 33",
     "mirror_x": "1 where left and right are swapped",
     "mirror_y": "1 where top and bottom are swapped",
+    "order": "how wires go on from block to block: rows, columns, serpentine, or column.row of each: 0.0,1.0,1.1,0.1",
+    "first_block": "corner where the wires come in: top-left, top-right, bottom-left or bottom-right",
+    "block_rotation": "degrees by which the text is turned clockwise in every block, or those of each: 0,90,180,270",
+    "mirror_blocks": "1 where the text is mirrored in every block",
+    "board": "backpack or featherwing, where the picture is scrambled",
     "chained_control": "1 allows control bytes in a chain, which spare bytes and some clones do not take",
 }
 
@@ -53,7 +58,7 @@ def describe(name: str) -> Iterator[str]:
     width = max(map(len, chip.parameters))
     for parameter in chip.parameters:
         yield f"  {parameter.ljust(width)}  {PARAMETERS.get(parameter, '')}".rstrip()
-    places = {"i2c": "i2c://1/0x3c", "spi": "spi://0.0"}
+    places = {"i2c": f"i2c://1/{chip.address:#x}", "spi": "spi://0.0"}
     tries = (f"{places[bus.removesuffix('-pair')]}?chip={name.lower()}" for bus in chip.buses)
     yield f"try: {' or '.join(tries)}"
 

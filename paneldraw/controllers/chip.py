@@ -140,6 +140,8 @@ class Chip:
         Makes of a `Module` the addressing by windows. Default: none.
     drive : callable, optional
         Makes of a `Module` the commands for precharge and COM voltage, as init has them and ever darker. Default: none.
+    address : int
+        The usual one on I2C. Default: 0x3C.
     facts : mapping
         All else that a `Controller` says of the chip.
 
@@ -171,6 +173,7 @@ class Chip:
     buses: tuple[str, ...] = ("i2c", "spi")
     contrast: Contrast | None = field(default_factory=Contrast)
     drive: Callable[[Module], tuple[str, ...]] | None = None
+    address: int = 0x3C
     facts: Mapping[str, Any] = field(default_factory=dict)
 
     @property
@@ -324,7 +327,7 @@ class Chip:
                 has = ", ".join(self.parameters)
                 raise ValueError(f"{name} must not be given for the {self.name}, which has {has}")
         if size not in self.modules and not all(name in given for name in self._needed):
-            sizes, needed = _listed(f"{w}x{h}" for w, h in self.sizes), " and ".join(f"{n}=" for n in self._needed)
+            sizes, needed = listed(f"{w}x{h}" for w, h in self.sizes), " and ".join(f"{n}=" for n in self._needed)
             raise ValueError(
                 f"size of the {self.name} must be {sizes}, not {width}x{height}; for another one give {needed} too"
             )
@@ -335,10 +338,17 @@ class Chip:
             raise ValueError(f"first_com must be 0 to {self.ram[1] - 1}, not {given['first_com']}")
         for name, allowed in {**_CHOICES, **self.choices}.items():
             if given.get(name, allowed[0]) not in allowed:
-                listed = _listed(f"{value:#04x}" if name == "com_pins" else str(value) for value in allowed)
-                raise ValueError(f"{name} of the {self.name} must be {listed}, not {given[name]!r}")
+                values = listed(f"{value:#04x}" if name == "com_pins" else str(value) for value in allowed)
+                raise ValueError(f"{name} of the {self.name} must be {values}, not {given[name]!r}")
 
 
-def _listed(names: Any) -> str:
+def listed(names: Any) -> str:
+    """Join names as a sentence has them.
+
+    Examples
+    --------
+    >>> listed(["128x64", "128x32", "96x16"])
+    '128x64, 128x32 or 96x16'
+    """
     *most, last = names
     return f"{', '.join(most)} or {last}" if most else str(last)

@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Callable
+from functools import partial
+from typing import TYPE_CHECKING, Any
 
 import cython
 import numpy as np
 from cython.cimports.cpython.memoryview import PyMemoryView_GET_BUFFER
+
+if TYPE_CHECKING:
+    from paneldraw.controllers.record import Controller
 
 #: A rectangle of bytes in memory: that of row y and column x is ``start[y * down + x * across]``.
 Rectangle = cython.struct(
@@ -118,5 +123,36 @@ _NIBBLES = {
 }
 """What a level becomes, by the highest level that there is."""
 
+
+def pack_bits(places: Any, levels: Any, max_level: Any, packed: Any) -> None:
+    """Pack levels a bit a pixel, each to a place of its own; the upper half of the levels is lit.
+
+    Parameters
+    ----------
+    places : (height * width) int
+        Of each pixel, row by row, eight times the number of its byte and the number of its bit, 0 being the lowest.
+    levels, max_level
+        As in `pack_pages`.
+    packed : uint8, contiguous
+        Bits that no pixel has become 0.
+    """
+    bits = np.zeros(8 * packed.size, np.bool_)
+    bits[places] = levels.reshape(-1) > max_level >> 1
+    packed.reshape(-1)[:] = np.packbits(bits, bitorder="little")
+
+
+def pack_bytes(places: Any, levels: Any, max_level: Any, packed: Any) -> None:
+    """Pack levels a byte a pixel, each to a place of its own; the highest level becomes 255."""
+    packed.reshape(-1)[places] = levels.reshape(-1) * np.uint8(255 // max_level)
+
+
 PACK = {"pages": pack_pages, "nibbles": pack_nibbles, "rows": pack_rows}
 """The functions by the packing that a controller names."""
+
+
+def packer(controller: Controller) -> Callable[[Any, int, Any], None]:
+    """Return what packs rows of levels as a controller has them."""
+    if controller.registers is None:
+        return PACK[controller.packing]
+    pack = pack_bits if controller.packing == "bits" else pack_bytes
+    return partial(pack, np.array(controller.registers.places))

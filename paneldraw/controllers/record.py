@@ -6,10 +6,10 @@ from dataclasses import dataclass
 from typing import Final
 
 #: Pixels that share a byte, by packing: columns and rows.
-PACKINGS: Final = {"pages": (1, 8), "nibbles": (2, 1), "rows": (8, 1)}
+PACKINGS: Final = {"pages": (1, 8), "nibbles": (2, 1), "rows": (8, 1), "bits": (1, 1), "bytes": (1, 1)}
 #: Kinds of bus, by the name that a transport and a record give them.
 BUSES: Final = {"i2c": "I2C", "i2c-pair": "I2C with a data_address=", "spi": "SPI"}
-_DEPTHS: Final = {"pages": 1, "nibbles": 4, "rows": 1}
+_DEPTHS: Final = {"pages": 1, "nibbles": 4, "rows": 1, "bits": 1, "bytes": 8}
 _PAUSE: Final = " ms"
 
 
@@ -111,13 +111,48 @@ class Window:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class Registers:
+    """The way of LED chips: a RAM of a few registers, and messages that begin with the number of the first they write.
+
+    On I2C such a message has no control byte. Commands are messages of their own.
+
+    Attributes
+    ----------
+    places : tuple of int
+        Where in the RAM each pixel is, row by row: the number of its byte, or eight times that and the number of its
+        bit, of which 0 is the lowest.
+    size : int
+        Bytes of the RAM.
+    first : int
+        Number of the register that is its first byte. Default: 0.
+    command_bytes : int
+        Bytes of a command. Default: 1.
+    chips : int
+        Chips in a row on SPI, each of which hands on what it took in two bytes before; the RAM is then eight registers
+        of a byte for each chip, that of the chip at the far end first. Default: 0, the chip is alone and counts up the
+        register itself.
+
+    Examples
+    --------
+    >>> Registers(places=(1, 0), size=2).first
+    0
+    """
+
+    places: tuple[int, ...]
+    size: int
+    first: int = 0
+    command_bytes: int = 1
+    chips: int = 0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Contrast:
     """How a chip is told the brightness of lit pixels.
 
     Attributes
     ----------
     command : bytes
-        Command that the level follows. Default: ``81``.
+        Command that the level follows. Default: ``81``. Empty where there is none, and levels are sent darker instead.
     highest : int
         The highest level. Default: 255.
     added : bool
@@ -139,6 +174,8 @@ class Contrast:
 
     def commands(self, level: int) -> tuple[bytes, ...]:
         """Return the commands for a level of 0 to 255."""
+        if not self.command:
+            return ()
         level = round(level * self.highest / 255)
         *head, last = self.command
         command = bytes((*head, last + level)) if self.added else self.command + bytes((level,))
@@ -168,7 +205,8 @@ class Controller:
     packing : str
         How pixels share bytes: ``"pages"`` is eight rows of one bit a byte, the topmost in the lowest bit;
         ``"nibbles"`` two pixels of four bits, the left one in the upper half; ``"rows"`` eight columns of one bit, the
-        left one in the highest bit. Default: ``"pages"``.
+        left one in the highest bit; ``"bits"`` and ``"bytes"`` one bit or one byte a pixel, where the registers say.
+        Default: ``"pages"``.
     bands : int
         How many bands of the picture, from the top, stand beside each other in the RAM. Default: 1.
     mirror_x, mirror_y : bool
@@ -177,6 +215,8 @@ class Controller:
     pointer : PagePointer, optional
     window : Window, optional
         The ways to say where data goes; there is one or both. Default: the page pointer alone.
+    registers : Registers, optional
+        The way of LED chips instead.
     arguments_are_data : bool
         Whether arguments of commands go as data, with D/C high, which rules I2C out. Default: False.
     chained_control : bool
@@ -186,7 +226,8 @@ class Controller:
     power_on, power_off, normal : bytes
         Commands of those names.
     inverse : bytes, optional
-        Command that shows lit pixels dark; None where the driver turns levels over. Default: ``A7``.
+        Command that shows lit pixels dark; None where the driver turns levels over, empty where LED chips are sent
+        pictures inverted. Default: ``A7``.
     contrast : Contrast, optional
         How it is told the brightness; None where it has none. Default: ``81`` and a byte.
     drive : tuple of tuple of bytes
@@ -216,6 +257,7 @@ class Controller:
     mirror_y: bool = False
     pointer: PagePointer | None = PagePointer()
     window: Window | None = None
+    registers: Registers | None = None
     arguments_are_data: bool = False
     chained_control: bool = False
     resync: bytes = b"\xe3" * 6
@@ -244,10 +286,16 @@ class Controller:
             raise ValueError(f"buses must be some of {', '.join(BUSES)}, not {self.buses}")
         if self.packing not in PACKINGS:
             raise ValueError(f"packing must be one of {', '.join(PACKINGS)}, not {self.packing!r}")
-        if self.pointer is None and self.window is None:
-            raise ValueError("pointer and window must not both be None: data must have a way")
+        if self.pointer is None and self.window is None and self.registers is None:
+            raise ValueError("pointer, window and registers must not all be None: data must have a way")
+        if (self.registers is not None) != (self.packing in ("bits", "bytes")):
+            raise ValueError(f"registers must be given for a packing of bits or bytes alone, not {self.packing!r}")
+        if self.registers is not None and len(set(self.registers.places)) != self.width * self.height:
+            raise ValueError(f"registers must have a place of its own for each of {self.width}x{self.height} pixels")
         if self.arguments_are_data and (self.pointer is not None or not (self.window and self.window.write)):
             raise ValueError("arguments_are_data must be False where no command of the window sets data apart")
+        if self.contrast is not None and not self.contrast.command and self.inverse:
+            raise ValueError("contrast must have a command where inverse has one")
         wide, high = self.cell
         if self.width % wide or self.column_offset % wide:
             raise ValueError(f"width {self.width} and column_offset {self.column_offset} must be multiples of {wide}")

@@ -6,7 +6,10 @@ from typing import TYPE_CHECKING
 
 from .bus import I2CBus, Multiplexer
 from .frames import Frame
+from .ht16k33 import HT16K33
+from .is31fl3731 import IS31FL3731
 from .lcd import PCD8544, ST7565, ST7567, UC1609, UC1701
+from .max7219 import MAX7219
 from .recorder import Look, contact_sheet, image, save
 from .sh110x import CH1115, SH1106, SH1107, SH1122
 from .spi import SPIBus
@@ -20,6 +23,9 @@ if TYPE_CHECKING:
 
 __all__ = [
     "CH1115",
+    "HT16K33",
+    "IS31FL3731",
+    "MAX7219",
     "PCD8544",
     "SH1106",
     "SH1107",
