@@ -4,7 +4,7 @@ import pytest
 
 from firmware_protocol import HelloReply
 from paneldraw import urls
-from paneldraw.controllers import SH1106, SSD1306, SSD1327
+from paneldraw.controllers import HT16K33, IS31FL3731, MAX7219, SH1106, SSD1306, SSD1327
 from paneldraw.errors import ProtocolError
 from paneldraw.transports import SerialTransport
 
@@ -42,6 +42,30 @@ from paneldraw.transports import SerialTransport
                 "controller": SSD1306(mirror_x=True, charge_pump=False, internal_reference=True),
                 "module": {"mirror_x": True, "mirror_y": False, "charge_pump": False, "internal_reference": True},
             },
+        ),
+        (
+            "spi://0.1?chip=max7219&size=64x16&order=serpentine&block_rotation=90&mirror_blocks=1&first_block=top-left",
+            {
+                "scheme": "spi",
+                "bus": 0,
+                "controller": MAX7219(
+                    64, 16, order="serpentine", block_rotation=90, mirror_blocks=True, first_block="top-left"
+                ),
+                "module": {
+                    "order": "serpentine",
+                    "block_rotation": "90",
+                    "mirror_blocks": True,
+                    "first_block": "top-left",
+                },
+                "transport": {"device": 1, "dc": None, "reset": None},
+            },
+        ),
+        ("i2c://1?chip=ht16k33", {"address": 0x70, "controller": HT16K33()}),
+        ("sim://ht16k33?size=8x8", {"scheme": "sim", "address": 0x70, "controller": HT16K33(8, 8)}),
+        ("i2c://1/0x75?chip=is31fl3731&size=11x7", {"address": 0x75, "controller": IS31FL3731(11, 7)}),
+        (
+            "i2c://1/?chip=ht16k33&board=featherwing",
+            {"address": 0x70, "controller": HT16K33(board="featherwing"), "module": {"board": "featherwing"}},
         ),
         (
             "i2c://1/0x3c?chip=ssd1306&size=96x16&rotate=180&on_close=clear",

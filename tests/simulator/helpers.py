@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
+import smbus2
 from numpy.typing import NDArray
 
 from paneldraw import simulator
@@ -63,3 +66,34 @@ def show_row_numbers(chip: simulator.SSD1306) -> None:
 def row_numbers(pixels: NDArray[np.uint8]) -> list[int | None]:
     """Which RAM row every line shows, top to bottom; None where the line is dark."""
     return [int(line[1:7] @ (1 << np.arange(6))) if line[0] else None for line in pixels.astype(int)]
+
+
+class BusioI2C:
+    """What ``busio.I2C`` does on Linux, on real smbus2 messages."""
+
+    def __init__(self, bus: simulator.I2CBus) -> None:
+        self.bus = bus
+        self.locked = False
+
+    def try_lock(self) -> bool:
+        taken, self.locked = not self.locked, True
+        return taken
+
+    def unlock(self) -> None:
+        self.locked = False
+
+    def writeto(self, address: int, buffer: Any, *, start: int = 0, end: int | None = None) -> None:
+        assert self.locked
+        self.bus.i2c_rdwr(smbus2.i2c_msg.write(address, bytes(buffer[start:end])))
+
+    def writeto_then_readfrom(self, address: int, out: Any, answer: Any, **ends: Any) -> None:
+        assert self.locked
+        wanted = smbus2.i2c_msg.read(address, len(answer))
+        self.bus.i2c_rdwr(smbus2.i2c_msg.write(address, bytes(out)), wanted)
+        answer[:] = bytes(wanted)
+
+    def readfrom_into(self, address: int, buffer: Any, *, start: int = 0, end: int | None = None) -> None:
+        assert self.locked
+        answer = smbus2.i2c_msg.read(address, len(buffer[start:end]))
+        self.bus.i2c_rdwr(answer)
+        buffer[start:end] = bytes(answer)

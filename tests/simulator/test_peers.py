@@ -13,7 +13,7 @@ from PIL import Image
 
 from paneldraw import simulator
 
-from .helpers import pack, random_picture
+from .helpers import BusioI2C, pack, random_picture
 
 LUMA_SIZES = [(128, 64), (128, 32), (96, 16), (64, 48), (64, 32)]
 ADAFRUIT_SIZES = [(128, 64), (128, 32), (72, 40), (64, 48), (64, 32), (48, 64)]
@@ -74,31 +74,6 @@ def test_luma_says_so_when_nobody_answers() -> None:
 
 
 # Adafruit's driver, over an object with busio's interface
-
-
-class BusioI2C:
-    """What ``busio.I2C`` does on Linux, on real smbus2 messages."""
-
-    def __init__(self, bus: simulator.I2CBus) -> None:
-        self.bus = bus
-        self.locked = False
-
-    def try_lock(self) -> bool:
-        taken, self.locked = not self.locked, True
-        return taken
-
-    def unlock(self) -> None:
-        self.locked = False
-
-    def writeto(self, address: int, buffer: Any, *, start: int = 0, end: int | None = None) -> None:
-        assert self.locked
-        self.bus.i2c_rdwr(smbus2.i2c_msg.write(address, bytes(buffer[start:end])))
-
-    def readfrom_into(self, address: int, buffer: Any, *, start: int = 0, end: int | None = None) -> None:
-        assert self.locked
-        answer = smbus2.i2c_msg.read(address, len(buffer[start:end]))
-        self.bus.i2c_rdwr(answer)
-        buffer[start:end] = bytes(answer)
 
 
 @pytest.fixture
