@@ -43,6 +43,18 @@ def luma_spi(spi: Any, gpio: Any) -> Any:
     return device
 
 
+def luma_led(spi: Any) -> Any:
+    """Make luma.led_matrix's device of eight MAX7219s; None where the package is not at hand."""
+    try:
+        from luma.core.interface import serial
+        from luma.led_matrix.device import max7219
+    except ImportError:
+        return None
+    device = max7219(serial.spi(spi=spi, gpio=serial.noop()), cascaded=8)
+    device.persist = True
+    return device
+
+
 class Wire:
     """An object with the interface of ``busio.I2C``; every write goes to one function."""
 

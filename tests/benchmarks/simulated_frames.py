@@ -44,20 +44,22 @@ class Tape:
 def reels(name: str) -> Iterator[tuple[str, list[Any], list[Any]]]:
     """For each bus that a chip sits on, the calls that show one picture and those that show another, bound to it."""
     record, chip = controllers.CHIPS[name](), getattr(simulator, name.upper())
+    address = controllers.CHIPS[name].address
+    lines: dict[str, Any] = {"dc": None, "reset": None} if record.registers else {}
     noise = np.random.default_rng(1).integers(0, 2**record.depth, (record.height, record.width), np.uint8)
     inverse = (2**record.depth - 1) - noise
     for kind in record.buses:
         tape, twin = Tape(), chip(history=2)
         if kind == "spi":
-            dc = None if record.synced else 24
-            panel = Panel(record, SPITransport(spi=tape, pins=tape, dc=dc))
-            wire = simulator.SPIBus(twin, dc=dc, timer=None)
+            wired = {"dc": None} if record.synced else lines
+            panel = Panel(record, SPITransport(spi=tape, pins=tape, **wired))
+            wire = simulator.SPIBus(twin, timer=None, **wired)
             wire.spi.cshigh = record.synced
             doors: dict[str, Any] = {"writebytes2": wire.spi.writebytes2, "set": wire.pins.set}
         else:
-            pair = {"data_address": 0x3D} if kind == "i2c-pair" else {}
-            panel = Panel(record, I2CTransport(tape, **pair))
-            bus = simulator.I2CBus({0x3C: twin} | ({0x3D: twin.data} if pair else {}), timer=None)
+            pair = {"data_address": address + 1} if kind == "i2c-pair" else {}
+            panel = Panel(record, I2CTransport(tape, address, **pair))
+            bus = simulator.I2CBus({address: twin} | ({address + 1: twin.data} if pair else {}), timer=None)
             doors = {"i2c_rdwr": bus.i2c_rdwr}
         parts = []
         for picture in (noise, inverse, noise, inverse):
