@@ -192,8 +192,9 @@ class Panel:
         if wire in BUSES and wire not in controller.buses:
             buses = " or ".join(BUSES[bus] for bus in controller.buses)
             raise ValueError(f"controller must be one that {BUSES[wire]} reaches: the {controller.name} is on {buses}")
-        if controller.registers is not None and not controller.registers.chips and wire != "i2c":
-            advice = "which this transport puts before all that it sends; use I2CTransport"
+        verbatim = getattr(transport, "verbatim", False)
+        if controller.registers is not None and not controller.registers.chips and not verbatim:
+            advice = "which this one puts before all that it sends; use I2CTransport"
             raise ValueError(f"transport must send no control bytes to the {controller.name}, {advice}")
         if refresh is not None and not refresh > 0:
             raise ValueError(f"refresh must be seconds above 0, or None, not {refresh!r}")

@@ -79,6 +79,8 @@ class Transport(Protocol):
     """What carries bytes to a panel. A write returns the bytes that it put on the wire, or raises `TransportError`.
 
     One that has an attribute ``wire``, ``"i2c"`` or ``"spi"``, is kept from chips that cannot be on such a bus.
+    Chips that know no control bytes, whose messages have their own first byte as their kind, are on one alone whose
+    attribute ``verbatim`` is True: it sends the messages of a plan as they stand.
     """
 
     @property

@@ -82,6 +82,8 @@ class I2CTransport:
     3
     """
 
+    verbatim = True
+
     def __init__(
         self,
         bus: Any = 1,

@@ -329,7 +329,9 @@ def test_a_chip_on_what_cannot_carry_it():
 
 
 class Board:
-    """A transport that is neither on I2C nor on SPI, and puts control bytes before what it sends."""
+    """A transport that reaches an I2C bus, as a serial one does, and puts control bytes before what it sends."""
+
+    wire = "i2c"
 
     def close(self):
         """Close nothing."""

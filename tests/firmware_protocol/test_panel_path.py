@@ -141,7 +141,7 @@ def test_a_restart_in_the_middle_of_a_picture_of_the_emulated_chip(board: Board,
     assert left[0] < 0
 
 
-SPI_PIXEL = {"ssd1306": 4, "sh1106": 4, "ssd1322": 9}
+SPI_PIXEL = {"ssd1306": 4, "sh1106": 4, "ssd1322": 9, "max7219": 16}
 
 
 class Wire:
@@ -165,7 +165,8 @@ class Wire:
 
 @pytest.fixture(scope="module", params=SPI_PIXEL)
 def spi_binaries(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
-    return built(tmp_path_factory.mktemp(request.param), BUS="spi", CHIP=request.param)
+    size = {"SIZE": "64x8"} if request.param == "max7219" else {}
+    return built(tmp_path_factory.mktemp(request.param), BUS="spi", CHIP=request.param, **size)
 
 
 @pytest.fixture
@@ -214,7 +215,7 @@ def test_a_pixel_on_spi_by_the_emulated_chip(spi_board: Board) -> None:
     (picture,) = noise_pictures(panel, 1)
     with panel:
         panel.show(picture)
-        for x, y in ((panel.width - 1, panel.height - 1), (0, 0), (64, 31)):
+        for x, y in ((panel.width - 1, panel.height - 1), (0, 0), (panel.width // 2, panel.height // 2 - 1)):
             picture[y, x] ^= 1
             port.read()
             before, start = wire.bytes, port.clock()
