@@ -17,12 +17,13 @@ from firmware_protocol.errors import (
 )
 from firmware_protocol.line import LinkStats
 from firmware_protocol.link import HostLink
-from firmware_protocol.messages import Fault, HelloReply, Status
+from firmware_protocol.messages import Fault, Feature, HelloReply, Status
 
 __all__ = [
     "Device",
     "DeviceResetError",
     "Fault",
+    "Feature",
     "HelloReply",
     "HostLink",
     "LinkError",

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import errno
+import re
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any, Protocol
 
-from firmware_protocol.frames import Frame, FrameDecoder
+from firmware_protocol.frames import DELIMITER, Frame, FrameDecoder
 from firmware_protocol.messages import (
     BASE_BAUDRATE,
     NEWEST_VERSION,
@@ -16,13 +17,16 @@ from firmware_protocol.messages import (
     Ack,
     Baud,
     Boot,
+    Byte,
     Fault,
+    Feature,
     Hello,
     HelloReply,
     Message,
     Nak,
     NakReason,
     Poll,
+    Read,
     Reset,
     Status,
     Write,
@@ -34,9 +38,13 @@ from firmware_protocol.runs import unpack_runs
 
 #: Seconds after a change of rate in which a valid frame must come.
 PROBATION = 0.3
-#: Seconds after a damaged frame in which a valid one must come, at any rate but the first.
+#: Seconds after any byte in which a valid frame must come, at any rate but the first.
 DOUBT = 1.5
+#: Seconds without a byte after which a device looks whether its panel is still there.
+QUIET = 1.0
 
+# What ends with a delimiter, and what does not yet.
+_PIECES = re.compile(rb"[^\0]*\0|[^\0]+")
 _STUCK = (errno.ETIMEDOUT, errno.EBUSY, errno.EAGAIN)
 
 
@@ -91,6 +99,12 @@ class Device:
         Called with the bytes of one transaction on the panel's bus, control byte first (00 commands, 40 data; on SPI
         it stands for the D/C line), or with no bytes to see whether the panel answers. Raises OSError where the panel
         does not. See `SMBusWriter`.
+    read : callable, optional
+        Returns a byte that it reads from the panel, or raises OSError. Default: this device cannot read.
+    reset_panel : callable, optional
+        Pulls the panel's reset line, where `profile` says that there is one.
+    control_each : bool, default False
+        Whether the panel wants the control byte 80 before each command byte.
     profile : HelloReply, optional
         What the device says of itself; ``nonce``, ``version``, ``boot``, ``cause`` and ``present`` are filled in by
         the device. Default: a 128 x 64 SSD1306 at 3C behind an ATmega328P.
@@ -125,11 +139,17 @@ class Device:
         self,
         write: Callable[[bytes], None],
         *,
+        read: Callable[[], int] | None = None,
+        reset_panel: Callable[[], object] = lambda: None,
+        control_each: bool = False,
         profile: HelloReply | None = None,
         boot: int = 1,
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
         self.write = write
+        self.read = read
+        self.reset_panel = reset_panel
+        self.control_each = control_each
         self.profile = profile or UNO
         self.clock = clock
         self.boot = boot - 1 & 0xFFFF
@@ -155,13 +175,26 @@ class Device:
         self._expected = 0
         self._fault = Fault.NONE
         self._nak_armed = False
+        self._features = 0
+        self._quiet_since = self.clock()
         self._revert_at: float | None = None
-        return encode(Boot(self.boot, cause))
+        if self.profile.reset_line:
+            self.reset_panel()
+        return _wire(Boot(self.boot, cause))
 
     def receive(self, data: bytes) -> bytes:
         """Take bytes from the line, carry out what they complete, return the bytes that answer."""
         self.tick()
-        return b"".join(encode(reply) for frame in self._decoder.feed(data) for reply in self._answer(frame))
+        answer = b""
+        rate = self.baudrate
+        for piece in _PIECES.findall(data):
+            self._quiet_since = self.clock()
+            self._doubt()
+            for frame in self._decoder.feed(piece):
+                answer += b"".join(map(_wire, self._answer(frame)))
+            if self.baudrate != rate:
+                break  # what came behind it came at the old rate
+        return answer
 
     def line_error(self) -> None:
         """Count a character that the line's receiver found broken or had to drop."""
@@ -169,8 +202,13 @@ class Device:
         self._doubt()
 
     def tick(self) -> None:
-        """Let time pass: go back to 115 200 when a change of rate has not worked."""
-        if self._revert_at is not None and self.clock() >= self._revert_at:
+        """Let time pass: look after the panel when nothing comes, go back to 115 200 when a rate does not work."""
+        now = self.clock()
+        if now - self._quiet_since >= QUIET:
+            self._quiet_since = now
+            if self._features & Feature.WATCH and not self._fault:
+                self._fail(self._transfer(b""))
+        if self._revert_at is not None and now >= self._revert_at:
             self._revert_at = None
             self.baudrate = BASE_BAUDRATE
             self._decoder.clear()
@@ -182,7 +220,6 @@ class Device:
     def _answer(self, frame: Frame | None) -> list[Message]:
         if frame is None:
             self.counters.damaged = self.counters.damaged + 1 & 0xFFFF
-            self._doubt()
             return self._nak(NakReason.DAMAGED)
         self._revert_at = None
         if is_sequenced(frame.kind):
@@ -196,6 +233,8 @@ class Device:
                 return [self._greet(message)]
             case Poll(token):
                 return [self._status(token)]
+            case Read(token) if self._can & Feature.READ:
+                return [self._read(token)]
         return []
 
     def _in_sequence(self, frame: Frame) -> list[Message]:
@@ -225,14 +264,28 @@ class Device:
         self._nak_armed = True
         self._expected = 0
         self._fault = Fault.NONE
+        self._features = self._can & hello.features if self._in_session else 0
         return replace(
             self.profile,
+            features=self._can,
             nonce=hello.nonce,
             version=version,
             boot=self.boot,
             cause=self.cause,
             present=self._transfer(b"") is Fault.NONE,
         )
+
+    @property
+    def _can(self) -> int:
+        return self.profile.features & (~int(Feature.READ) if self.read is None else -1)
+
+    def _read(self, token: int) -> Message:
+        if not self._in_session or self.read is None:
+            return Boot(self.boot, self.cause)
+        try:
+            return Byte(token, Fault.NONE, self.read())
+        except OSError as error:
+            return Byte(token, _fault_of(error))
 
     def _status(self, token: int) -> Message:
         if not self._in_session:
@@ -249,8 +302,10 @@ class Device:
             self._fail(Fault.MALFORMED if known else Fault.UNKNOWN_KIND)
             return
         match message:
-            case Reset():
+            case Reset(pulse=pulse):
                 self._fault = Fault.NONE
+                if pulse and self.profile.reset_line:
+                    self.reset_panel()
             case Baud(rate=rate) if not self._fault:
                 self._change_rate(rate)
             case Write(payload=payload, end=end) if not self._fault:
@@ -261,29 +316,46 @@ class Device:
             self._fail(Fault.BAUD_NOT_OFFERED)
             return
         self.baudrate = rate
+        self._decoder.clear()
         self._revert_at = None if rate == BASE_BAUDRATE else self.clock() + PROBATION
 
     def _write(self, payload: bytes, end: bool) -> None:
         try:
-            runs = unpack_runs(payload)
+            runs = unpack_runs(payload, repeats=self.profile.repeats)
         except ValueError:
             self._fail(Fault.MALFORMED)
             return
         for is_data, content in runs:
-            self._fail(self._transfer((b"\x40" if is_data else b"\x00") + content))
+            self._fail(self._transfer(self._transaction(is_data, content)))
             if self._fault:
                 return
         self.pictures += end
+
+    def _transaction(self, is_data: bool, content: bytes) -> bytes:
+        if is_data:
+            return b"\x40" + content
+        if self.control_each:
+            return b"".join(b"\x80" + content[at : at + 1] for at in range(len(content)))
+        return b"\x00" + content
 
     def _transfer(self, content: bytes) -> Fault:
         try:
             self.write(content)
         except OSError as error:
-            return Fault.BUS_STUCK if error.errno in _STUCK else Fault.ADDRESS_NACK
+            return _fault_of(error)
         return Fault.NONE
 
     def _fail(self, fault: Fault) -> None:
         self._fault = self._fault or fault
+
+
+def _wire(message: Message) -> bytes:
+    """What goes out; what is not counted must not be swallowed by the rest of a frame that broke off."""
+    return (b"" if isinstance(message, Ack | Nak) else DELIMITER) + encode(message)
+
+
+def _fault_of(error: OSError) -> Fault:
+    return Fault.BUS_STUCK if error.errno in _STUCK else Fault.ADDRESS_NACK
 
 
 #: What the firmware on an Arduino Uno or Nano with a 128 x 64 SSD1306 says of itself.
@@ -292,10 +364,11 @@ UNO = HelloReply(
     oldest=OLDEST_VERSION,
     newest=NEWEST_VERSION,
     max_payload=250,
-    window=464,
+    window=448,
     width=128,
     height=64,
     bauds=(500_000, 1_000_000, 250_000, 115_200),
     controller="ssd1306",
     firmware="paneldraw reference 1.0",
+    features=Feature.WATCH | Feature.READ,
 )

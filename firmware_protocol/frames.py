@@ -58,6 +58,18 @@ def wire_size(payload: int) -> int:
     return payload + FRAME_OVERHEAD + (payload + ENVELOPE - 1) // 254
 
 
+def payload_within(wire: int) -> int:
+    """Return the longest payload whose frame never takes more than this many bytes on the wire.
+
+    Examples
+    --------
+    >>> payload_within(256), payload_within(257), payload_within(258)
+    (250, 250, 251)
+    """
+    room = wire - FRAME_OVERHEAD
+    return room - (room + ENVELOPE) // 255
+
+
 class FrameDecoder:
     """Cuts a stream of bytes into frames, whatever the stream holds.
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import time
 from collections import deque
@@ -24,18 +25,23 @@ from firmware_protocol.frames import DELIMITER, encode_frame, wire_size
 from firmware_protocol.line import PORT_ERRORS, Line, LinkStats
 from firmware_protocol.messages import (
     BASE_BAUDRATE,
+    HOST_FEATURES,
     NEWEST_VERSION,
     OLDEST_VERSION,
     Ack,
     Baud,
     Boot,
+    Byte,
     Fault,
+    Feature,
     Hello,
     HelloReply,
     Kind,
     Message,
     Nak,
+    PanelBus,
     Poll,
+    Read,
     Status,
     cause_text,
     encode,
@@ -49,6 +55,11 @@ PATIENCE = 0.25
 ATTEMPTS = 7
 #: How often it is asked at a faster rate before the first rate is tried: it may have restarted.
 HOPES = 2
+#: How often it is asked again at once, in one recovery, as something came damaged: its answer, perhaps.
+HURRIES = 2
+#: Seconds after which a faster rate that failed is tried again, to begin with and at most; twice as long each time.
+RATE_AGAIN = 10.0
+RATE_AGAIN_MOST = 640.0
 #: Seconds without an acknowledged frame, in spite of answers, after which the line is given up.
 STALLED = 15.0
 #: Most frames under way; half the sequence numbers must stay unambiguous.
@@ -57,6 +68,9 @@ MAX_IN_FLIGHT = 100
 SENSIBLE_RATES = range(1_200, 20_000_001)
 
 _PROBATION = 0.3
+# How long, and how often, a device is greeted at the rate of a session that broke off.
+_STILL_THERE = 0.15
+_STILL_THERE_EACH = 0.06
 
 _FAULTS = {
     Fault.ADDRESS_NACK: "no panel answers at {address:#04x} behind it: check the panel's wiring and address",
@@ -66,6 +80,7 @@ _FAULTS = {
     Fault.UNKNOWN_KIND: "it does not know a message that this version sends: update the firmware",
     Fault.BAUD_NOT_OFFERED: "it does not offer that baud rate",
 }
+_SPI_STOPPED = "its SPI has stopped: press the board's reset button, and check that nothing pulls its lines"
 
 
 class HostLink:
@@ -82,7 +97,8 @@ class HostLink:
         Bits a second after the handshake, one of those that the device offers. Default: the rate the device likes
         best. Where it does not work, the link goes on at 115 200; `HostLink.baudrate` says so.
     timeout : float, default 3.0
-        Seconds to wait for a device to answer the handshake; boards that reset when a port is opened need two.
+        Seconds that a call waits while the device answers nothing and acknowledges nothing. Boards that reset when a
+        port is opened need two.
     clock : callable, default `time.monotonic`
         Seconds.
 
@@ -122,7 +138,10 @@ class HostLink:
         # What is not acknowledged, and the sizes on the wire of that part of it that is under way.
         self._work: deque[Work] = deque()
         self._sizes: deque[int] = deque()
-        self._token = 0
+        self._token = self._first = 0
+        self._last_rate = BASE_BAUDRATE  # that the device may still listen at
+        self._fast_again = math.inf  # when a faster rate that failed is due again
+        self._fast_patience = RATE_AGAIN
         self._closed = False
         self._forget()
         self.connect()
@@ -148,9 +167,12 @@ class HostLink:
     def connect(self) -> None:
         """Begin a new session, opening the port again if it was lost. `submit` does it where it must."""
         self._forget()
-        self._line.open()
-        self._shake_hands()
-        self._choose_rate()
+        self._progress = self.clock()
+        if not self._still_there():
+            self._line.open()
+            self._shake_hands()
+        if self._fast_again == math.inf or self.clock() >= self._fast_again:
+            self._choose_rate()
         self._in_session = True
         self.stats.sessions += 1
 
@@ -199,6 +221,41 @@ class HostLink:
         self._begin()
         self._sequenced(Kind.RESET, b"\1")
 
+    def read_panel(self) -> int:
+        """Return a byte read from the panel, for chips that say how they are.
+
+        Raises
+        ------
+        PanelFaultError
+            The panel does not answer.
+        LinkError
+            The device cannot read, or one of its kinds.
+        """
+        self._begin()
+        if not self.device.features & Feature.READ:
+            raise LinkError(f"the board on {self._line.name} cannot read from its panel")
+        self.drain()
+        for _ in range(HURRIES + 1):
+            answer = self._asked_to_read()
+            if answer is None:
+                continue
+            if answer.fault:
+                raise PanelFaultError(answer.fault, self._fault_text(answer.fault))
+            return answer.value
+        raise LinkTimeoutError(f"the board on {self._line.name} does not say what its panel answers; try again")
+
+    def _asked_to_read(self) -> Byte | None:
+        """Ask once; return the answer, or None where it is lost."""
+        self._token = self._token + 1 & 0xFF
+        self._line.send(DELIMITER + encode(Read(self._token)))
+        until, damaged = self.clock() + self._patience, self.stats.damaged
+        while self.clock() < until and self.stats.damaged == damaged:
+            for message in self._line.receive():
+                if isinstance(message, Byte) and message.token == self._token:
+                    return message
+                self._handle(message)
+        return None
+
     def status(self) -> Status:
         """Ask the device for its counters."""
         self._begin()
@@ -230,7 +287,18 @@ class HostLink:
             raise LinkLostError(f"the link on {self._line.name} was closed; open another")
         if self._line.lost or not self._in_session:
             self.connect()
+            return
         self._progress = self.clock()
+        if self._progress >= self._fast_again:
+            boot = self.device.boot
+            self._choose_rate()
+            if self.device.boot != boot:
+                self._restarted(self.device.cause)
+
+    @property
+    def _patience(self) -> float:
+        """Seconds to wait for an answer at first: less where the caller has no time."""
+        return min(PATIENCE, self.timeout / 8)
 
     def _forget(self) -> None:
         self._in_session = False
@@ -238,33 +306,45 @@ class HostLink:
         self._sizes.clear()
         self._base = 0
         self._polling: int | None = None
-        self._failures = 0
+        self._failures = self._hurries = 0
         self._deadline = 0.0
-        self._progress = self.clock()
         self._settling = False
         self._fault = Fault.NONE
 
+    def _still_there(self) -> bool:
+        """Whether a device that a session broke off with answers at that session's rate."""
+        if self._line.lost or self._last_rate == BASE_BAUDRATE:
+            return False
+        self._line.set_rate(self._last_rate)
+        return self._greeted(min(_STILL_THERE, self.timeout / 4), _STILL_THERE_EACH) is None
+
     def _shake_hands(self) -> None:
-        deadline = self.clock() + self.timeout
         received = self.stats.bytes_received
-        spoke = echoed = False
+        came = self._greeted(self._progress + self.timeout - self.clock(), PATIENCE)
+        if came is not None:
+            raise NoDeviceError(self._diagnosis(self.stats.bytes_received - received, came))
+        self._last_rate = BASE_BAUDRATE
+
+    def _greeted(self, seconds: float, patience: float) -> set[type[Message]] | None:
+        """Say HELLO until it is answered, and return None; after so many seconds, what came instead."""
+        came: set[type[Message]] = set()
+        deadline = self.clock() + seconds
         while self.clock() < deadline:
             nonce = int.from_bytes(os.urandom(4), "little")
-            self._line.send(DELIMITER + encode(Hello(nonce)))
-            until = min(deadline, self.clock() + PATIENCE)
+            self._line.send(DELIMITER + encode(Hello(nonce, features=HOST_FEATURES)))
+            until = min(deadline, self.clock() + patience)
             while self.clock() < until:
                 for message in self._line.receive():
                     if isinstance(message, HelloReply) and message.nonce == nonce:
                         self._accept(message)
-                        return
-                    spoke = spoke or isinstance(message, HelloReply | Status | Boot | Ack | Nak)
-                    echoed = echoed or isinstance(message, Hello)
-        raise NoDeviceError(self._diagnosis(self.stats.bytes_received - received, spoke, echoed))
+                        return None
+                    came.add(type(message))
+        return came
 
-    def _diagnosis(self, received: int, spoke: bool, echoed: bool) -> str:
-        if spoke:
+    def _diagnosis(self, received: int, came: set[type[Message]]) -> str:
+        if came & {HelloReply, Status, Boot, Ack, Nak, Byte}:
             return f"the board on {self._line.name} speaks but does not answer: press its reset button and try again"
-        if echoed:
+        if Hello in came:
             return f"{self._line.name} sends back what it is sent: nothing but a loop-back is connected there"
         if received:
             return (
@@ -286,30 +366,47 @@ class HostLink:
             )
         if reply.max_payload < LEAST_PAYLOAD or reply.window < wire_size(LEAST_PAYLOAD):
             raise VersionError(f"the board on {self._line.name} takes too little at a time: update its firmware")
+        if reply.boot != self.device.boot:
+            self._fast_again, self._fast_patience = math.inf, RATE_AGAIN
         self.device = reply
         self._pace = Pace(self.device, self.baudrate)
 
     def _choose_rate(self) -> None:
         offered = [rate for rate in self.device.bauds if rate in SENSIBLE_RATES]
         wanted = self._wanted_rate or (offered[0] if offered else BASE_BAUDRATE)
-        if wanted == BASE_BAUDRATE or not offered:
+        self._fast_again = math.inf
+        if wanted in (BASE_BAUDRATE, self.baudrate) or not offered:
             return
         if wanted not in offered:
             raise LinkError(
                 f"the board on {self._line.name} does not offer {wanted} baud; it offers {', '.join(map(str, offered))}"
             )
-        self._sequenced(Kind.BAUD, wanted.to_bytes(4, "little"))
+        try:
+            self._sequenced(Kind.BAUD, wanted.to_bytes(4, "little"))
+        except PanelFaultError:  # the device does without, after all
+            self._put_off()
+            return
         try:
             self._line.set_rate(wanted)
             if self._heard():
                 self._pace = Pace(self.device, self.baudrate)
+                self._last_rate = wanted
                 return
+            self._put_off()
         except PORT_ERRORS:
-            pass  # an adapter that cannot do this rate
+            self._wanted_rate = BASE_BAUDRATE  # the adapter cannot do it
         self._line.set_rate(BASE_BAUDRATE)
         self._wait(_PROBATION)
+        in_session = self._in_session
         self._forget()
+        self._progress = self.clock()
         self._shake_hands()
+        self._in_session = in_session
+
+    def _put_off(self) -> None:
+        """Try a faster rate later."""
+        self._fast_again = self.clock() + self._fast_patience
+        self._fast_patience = min(RATE_AGAIN_MOST, 2 * self._fast_patience)
 
     def _heard(self) -> bool:
         until = self.clock() + _PROBATION
@@ -359,8 +456,12 @@ class HostLink:
 
     def _step(self) -> None:
         """Wait for something to happen and act on it."""
+        damaged = self.stats.damaged
         for message in self._line.receive():
             self._handle(message)
+        if self.stats.damaged != damaged and (self._sizes or self._polling is not None) and self._hurries < HURRIES:
+            self._hurries += 1
+            self._poll()
         if self._fault and not self._settling:
             self._settle(self._fault)
         if self._work or self._polling is not None:
@@ -378,14 +479,21 @@ class HostLink:
                 if self._polling is None:
                     self._pace.slow_down()
                 self._poll()
-            case Status(token) if token == self._polling:
+            case Status(token) if self._answers(token):
+                if message.boot != self.device.boot:
+                    self._restarted(self.device.cause)
                 self._polling = None
-                self._failures = 0
+                self._failures = self._hurries = 0
+                self._last_rate = self.baudrate
                 self._status = message
                 self._fault = self._fault or message.fault
                 self._go_back(message.expected)
             case Boot(cause=cause):
-                self._fail(DeviceResetError, f"the board on {self._line.name} has restarted ({cause_text(cause)})")
+                self._restarted(cause)
+
+    def _answers(self, token: int) -> bool:
+        """Whether a STATUS answers any POLL of the present recovery: what was sent before one was sent before all."""
+        return self._polling is not None and self._polling - token & 0xFF <= self._polling - self._first & 0xFF
 
     def _done(self, count: int) -> None:
         """Retire the ``count`` oldest frames; more than are under way means an old acknowledgement."""
@@ -404,7 +512,7 @@ class HostLink:
         """Begin again with the first frame that the device has not taken: all sent before the POLL has been seen."""
         count = expected - self._base & 0xFF
         if count > len(self._sizes):
-            self._fail(LinkTimeoutError, f"the board on {self._line.name} lost count of what it was sent; try again")
+            self._fail(DeviceResetError, f"the board on {self._line.name} has lost count of what it was sent")
         if count:
             self._done(count)
         self.stats.resent += len(self._sizes)
@@ -412,13 +520,20 @@ class HostLink:
         self._work = deque(piece for work in self._work for piece in self._pace.again(work))
 
     def _expect(self) -> None:
+        now = self.clock()
         on_the_way = 20 * sum(self._sizes) / self.baudrate
-        self._deadline = self.clock() + PATIENCE * min(4, 2**self._failures) + on_the_way
+        if self._last_rate == BASE_BAUDRATE:
+            patience = self._patience * min(4, 2**self._failures)
+        else:  # quick to fall back, and then to find a device that does so too
+            patience = self._patience * (1 if self._last_rate == self.baudrate else 2)
+        self._deadline = on_the_way + min(now + patience, max(now, self._progress + self.timeout))
 
     def _poll(self) -> None:
-        if self.clock() - self._progress > STALLED:
+        if self.clock() - self._progress > min(STALLED, self.timeout):
             self._fail(LinkTimeoutError, f"the line to {self._line.name} is too noisy: lower the baud rate")
         self._token = self._token + 1 & 0xFF
+        if self._polling is None:
+            self._first = self._token
         self._polling = self._token
         self._expect()
         self._line.send(DELIMITER + encode(Poll(self._token)))
@@ -426,13 +541,15 @@ class HostLink:
     def _time_out(self) -> None:
         self.stats.timeouts += 1
         self._failures += 1
-        if self._failures > ATTEMPTS:
+        if self._failures > ATTEMPTS or self.clock() - self._progress >= self.timeout:
             self._fail(
                 LinkTimeoutError,
                 f"the board on {self._line.name} has stopped answering: check the cable, or press its reset button",
             )
         if self._failures > HOPES and self.baudrate != BASE_BAUDRATE:
             self._line.set_rate(BASE_BAUDRATE)
+            self._pace = Pace(self.device, BASE_BAUDRATE)
+            self._put_off()
         self._pace.slow_down()
         self._poll()
 
@@ -445,8 +562,17 @@ class HostLink:
         self._sequenced(Kind.RESET, b"\0")
         self._settling = False
         self._fault = Fault.NONE
+        raise PanelFaultError(fault, self._fault_text(fault))
+
+    def _fault_text(self, fault: Fault) -> str:
         text = _FAULTS.get(fault, "it reports a fault").format(address=self.device.address)
-        raise PanelFaultError(fault, f"the board on {self._line.name} works, but {text}")
+        if fault == Fault.BUS_STUCK and self.device.bus == PanelBus.SPI:
+            text = _SPI_STOPPED
+        return f"the board on {self._line.name} works, but {text}"
+
+    def _restarted(self, cause: int) -> NoReturn:
+        self._last_rate = self.baudrate
+        self._fail(DeviceResetError, f"the board on {self._line.name} has restarted ({cause_text(cause)})")
 
     def _fail(self, kind: type[LinkError], text: str) -> NoReturn:
         self._forget()

@@ -5,7 +5,7 @@ from __future__ import annotations
 import struct
 from collections.abc import Callable
 from dataclasses import dataclass
-from enum import IntEnum
+from enum import IntEnum, IntFlag
 
 from firmware_protocol.frames import Frame, encode_frame
 
@@ -21,6 +21,7 @@ class Kind(IntEnum):
 
     HELLO = 0x01
     POLL = 0x02
+    READ = 0x03
     WRITE = 0x10
     WRITE_END = 0x11
     BAUD = 0x12
@@ -30,6 +31,18 @@ class Kind(IntEnum):
     BOOT = 0x83
     ACK = 0x84
     NAK = 0x85
+    BYTE = 0x86
+
+
+class Feature(IntFlag):
+    """What an end can do beyond the rest; both must, or it is not done."""
+
+    WATCH = 0x0001
+    READ = 0x0002
+
+
+#: What this package knows to do as a host.
+HOST_FEATURES = Feature.WATCH | Feature.READ
 
 
 class Fault(IntEnum):
@@ -72,16 +85,24 @@ def is_sequenced(kind: int) -> bool:
 
 @dataclass(frozen=True, slots=True)
 class Hello:
-    """Host: begin a session. ``nonce`` (32 bits) comes back in the reply."""
+    """Host: begin a session. ``nonce`` (32 bits) comes back in the reply; ``features`` are those the host knows."""
 
     nonce: int
     oldest: int = OLDEST_VERSION
     newest: int = NEWEST_VERSION
+    features: int = 0
 
 
 @dataclass(frozen=True, slots=True)
 class Poll:
     """Host: say, once all before this is done, what you expect next. ``token`` (8 bits) comes back in the reply."""
+
+    token: int
+
+
+@dataclass(frozen=True, slots=True)
+class Read:
+    """Host: read a byte from the panel once all before this is done. ``token`` comes back with it."""
 
     token: int
 
@@ -147,6 +168,8 @@ class HelloReply:
         Rates for BAUD, the best first; empty where the rate does not matter.
     controller, firmware : str
         The panel's chip as the host names it, or "" if not known; the firmware's name and version.
+    features : int
+        Those of `Feature` that the device has, and others that later versions add.
     """
 
     nonce: int
@@ -162,12 +185,13 @@ class HelloReply:
     reset_line: bool = False
     repeats: bool = True
     max_payload: int = 250
-    window: int = 464
+    window: int = 448
     width: int = 0
     height: int = 0
     bauds: tuple[int, ...] = ()
     controller: str = ""
     firmware: str = ""
+    features: int = 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -207,9 +231,19 @@ class Nak:
     reason: NakReason = NakReason.DAMAGED
 
 
-Message = Hello | Poll | Write | Baud | Reset | HelloReply | Status | Boot | Ack | Nak
+@dataclass(frozen=True, slots=True)
+class Byte:
+    """Device: the answer to a READ: the byte that the panel gave, or why there is none."""
+
+    token: int
+    fault: Fault = Fault.NONE
+    value: int = 0
+
+
+Message = Hello | Poll | Read | Write | Baud | Reset | HelloReply | Status | Boot | Ack | Nak | Byte
 
 _HELLO = struct.Struct("<IBB")
+_FEATURES = struct.Struct("<H")
 _REPLY = struct.Struct("<IBBBHBBBBBHHHHB")
 _STATUS = struct.Struct("<BBHHHH")
 _BOOT = struct.Struct("<HB")
@@ -256,10 +290,12 @@ def _fields(message: Message) -> tuple[int, int, bytes]:
             return Kind.WRITE_END if end else Kind.WRITE, seq, payload
         case Ack(seq, fault):
             return Kind.ACK, seq, bytes((fault,))
-        case Hello(nonce, oldest, newest):
-            return Kind.HELLO, 0, _HELLO.pack(nonce, oldest, newest)
+        case Hello(nonce, oldest, newest, features):
+            return Kind.HELLO, 0, _HELLO.pack(nonce, oldest, newest) + _FEATURES.pack(features)
         case Poll(token):
             return Kind.POLL, token, b""
+        case Read(token):
+            return Kind.READ, token, b""
         case Baud(seq, rate):
             return Kind.BAUD, seq, rate.to_bytes(4, "little")
         case Reset(seq, pulse):
@@ -272,6 +308,8 @@ def _fields(message: Message) -> tuple[int, int, bytes]:
             return Kind.BOOT, 0, _BOOT.pack(boot, cause)
         case Nak(seq, reason):
             return Kind.NAK, seq, bytes((reason,))
+        case Byte(token, fault, value):
+            return Kind.BYTE, token, bytes((fault, value))
 
 
 def _pack_reply(reply: HelloReply) -> bytes:
@@ -285,6 +323,7 @@ def _pack_reply(reply: HelloReply) -> bytes:
             ),
             *(rate.to_bytes(4, "little") for rate in reply.bauds),
             *(bytes((len(name),)) + name.encode("ascii") for name in (reply.controller, reply.firmware)),
+            _FEATURES.pack(reply.features),
         )
     )  # fmt: skip
 
@@ -296,11 +335,22 @@ def _read_reply(seq: int, payload: bytes) -> HelloReply:
     rates = struct.unpack(f"<{bauds}I", payload[_REPLY.size : at])
     controller, at = _read_name(payload, at)
     firmware, at = _read_name(payload, at)
+    features = _read_features(payload, at)
     return HelloReply(
         nonce, version, oldest, newest, boot, cause, PanelBus(bus), address,
         bool(flags & 1), bool(flags & 2), bool(flags & 4), bool(encodings & 1),
-        max_payload, window, width, height, rates, controller, firmware,
+        max_payload, window, width, height, rates, controller, firmware, features,
     )  # fmt: skip
+
+
+def _read_hello(seq: int, payload: bytes) -> Hello:
+    nonce, oldest, newest = _HELLO.unpack_from(payload)
+    return Hello(nonce, oldest, newest, _read_features(payload, _HELLO.size))
+
+
+def _read_features(payload: bytes, at: int) -> int:
+    """A field that was added: who does not send it has none of them."""
+    return int(_FEATURES.unpack_from(payload, at)[0]) if len(payload) >= at + _FEATURES.size else 0
 
 
 def _read_status(seq: int, payload: bytes) -> Status:
@@ -316,8 +366,9 @@ def _read_name(payload: bytes, at: int) -> tuple[str, int]:
 
 
 _READERS: dict[int, Callable[[int, bytes], Message]] = {
-    Kind.HELLO: lambda seq, payload: Hello(*_HELLO.unpack_from(payload)),
+    Kind.HELLO: _read_hello,
     Kind.POLL: lambda seq, payload: Poll(seq),
+    Kind.READ: lambda seq, payload: Read(seq),
     Kind.WRITE: lambda seq, payload: Write(seq, payload, False),
     Kind.WRITE_END: lambda seq, payload: Write(seq, payload, True),
     Kind.BAUD: lambda seq, payload: Baud(seq, int.from_bytes(struct.unpack_from("4s", payload)[0], "little")),
@@ -327,4 +378,5 @@ _READERS: dict[int, Callable[[int, bytes], Message]] = {
     Kind.BOOT: lambda seq, payload: Boot(*_BOOT.unpack_from(payload)),
     Kind.ACK: lambda seq, payload: Ack(seq, Fault(payload[0])),
     Kind.NAK: lambda seq, payload: Nak(seq, NakReason(payload[0])),
+    Kind.BYTE: lambda seq, payload: Byte(seq, Fault(payload[0]), payload[1]),
 }

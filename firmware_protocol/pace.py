@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from firmware_protocol.frames import FRAME_OVERHEAD, wire_size
+from firmware_protocol.frames import FRAME_OVERHEAD, payload_within, wire_size
 from firmware_protocol.messages import HelloReply, Kind, PanelBus
 from firmware_protocol.runs import LEAST_PAYLOAD, Run, bus_bytes, cut_runs, pack_runs, unpack_runs
 
@@ -43,19 +43,20 @@ class Pace:
         self._wire_byte = 10 / baudrate
         # A slow wire wants few large frames; a fast one wants the next frame there when the panel is done with one.
         self._fast = baudrate > FAST
-        parts = 3 if self._fast else 2
+        on_spi = device.bus == PanelBus.SPI  # which is faster than any wire
+        parts = 3 if self._fast and not on_spi else 2
         self._repeats = device.repeats
         # On SPI a run is a chip select, and a chain of MAX7219 takes half of one for a whole one.
-        self._whole = min(device.max_payload, device.window - 8) if device.bus == PanelBus.SPI else 0
+        self._whole = min(device.max_payload, payload_within(device.window)) if on_spi else 0
         self._best_window = device.window
-        self._best_payload = max(LEAST_PAYLOAD, min(device.max_payload, device.window // parts - 8))
+        self._best_payload = max(LEAST_PAYLOAD, min(device.max_payload, payload_within(device.window // parts)))
         self.payload = self._best_payload
         self.window = self._best_window
 
     def writes(self, runs: Iterable[Run], end: bool) -> list[Work]:
         """Return runs as messages; ``end`` says that they complete a picture."""
         payloads = self._packed(runs)
-        if payloads and not self._whole:  # SPI is faster than any wire
+        if payloads and not self._whole:
             # A fast wire waits for the panel's bus, which therefore starts early; a slow one has it end soon after.
             cut = 0 if self._fast else len(payloads) - 1
             payloads[cut : cut + 1] = self._overlapping(payloads[cut])

@@ -71,13 +71,13 @@ def pack_runs(runs: Iterable[Run], limit: int, *, repeats: bool = True, whole: i
     return packer.finish()
 
 
-def unpack_runs(payload: bytes) -> list[tuple[bool, bytes]]:
+def unpack_runs(payload: bytes, *, repeats: bool = True) -> list[tuple[bool, bytes]]:
     """Return the runs of a WRITE payload, neighbors of one kind joined, as they go onto the panel's bus.
 
     Raises
     ------
     ValueError
-        If the payload ends inside a token.
+        If the payload ends inside a token, or holds a repeat and ``repeats`` is False.
 
     Examples
     --------
@@ -85,7 +85,7 @@ def unpack_runs(payload: bytes) -> list[tuple[bool, bytes]]:
     [(False, b'\\xb0\\x02\\x10'), (True, b'\\xffUUUU')]
     """
     joined: list[tuple[bool, bytearray]] = []
-    for is_data, content in _tokens(payload):
+    for is_data, content in _tokens(payload, repeats):
         if joined and joined[-1][0] == is_data:
             joined[-1][1].extend(content)
         else:
@@ -123,7 +123,7 @@ def cut_runs(runs: Iterable[Run], size: int) -> tuple[list[Run], list[Run]]:
     return before, after
 
 
-def _tokens(payload: bytes) -> Iterator[tuple[bool, bytes]]:
+def _tokens(payload: bytes, repeats: bool) -> Iterator[tuple[bool, bytes]]:
     at = 0
     while at < len(payload):
         header = payload[at]
@@ -131,6 +131,8 @@ def _tokens(payload: bytes) -> Iterator[tuple[bool, bytes]]:
         start, at = at + 1, at + 1 + commands + data
         if at > len(payload):
             raise ValueError(f"the payload ends inside the token {header:02x}")
+        if header >= REPEAT_HEADER and not repeats:
+            raise ValueError(f"the token {header:02x} is a repeat")
         if commands:
             yield False, payload[start : start + commands]
         if data:

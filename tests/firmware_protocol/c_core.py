@@ -56,6 +56,15 @@ class Core:
     def panel(self, *, gone: bool = False, slow: bool = False, stuck: bool = False) -> None:
         self.c.host_set(gone, slow, stuck)
 
+    def gives(self, status: int) -> None:
+        """Say what byte the panel gives when it is read."""
+        self.c.host_set_status(status)
+
+    @property
+    def resets(self) -> int:
+        """How often the panel's reset line was pulled since the start."""
+        return int(self.c.host_resets())
+
     def transactions(self) -> list[bytes]:
         written = bytes(self.bytes[: self.c.host_written(self.bytes)])
         found, at = [], 0

@@ -109,6 +109,10 @@ class Board:
     def panel(self, *, absent: bool = False, stuck: bool = False, nack_after: int = -1) -> None:
         self.c.rig_panel(self.rig, absent, stuck, nack_after)
 
+    def gives(self, status: int) -> None:
+        """Say what byte the panel gives when it is read."""
+        self.c.rig_gives(self.rig, status)
+
     def reset(self, *, power: bool = False) -> None:
         self.c.rig_reset(self.rig, power)
 
@@ -162,7 +166,8 @@ class Recorder:
 class BoardPort:
     """What `HostLink` needs of a pyserial port, joined to a `Board`; `clock` is the board's time.
 
-    A panel on I²C is ``panel``, called with each transaction; one on SPI is ``spi``.
+    A panel on I²C is ``panel``, called with each transaction, and ``status`` says what it gives when it is read; one on
+    SPI is ``spi``.
     """
 
     name = "emulated"
@@ -172,6 +177,7 @@ class BoardPort:
         self.noise = noise or Noise()
         self.rng = random.Random(seed)
         self.panel: Callable[[bytes], None] | PagePanel = PagePanel()
+        self.status: Callable[[], int] = lambda: 0
         self.spi: SPIPanel = Recorder()
         self.baudrate, self.timeout, self.is_open = 115200, 0.02, True
         self.received = bytearray()
@@ -195,6 +201,7 @@ class BoardPort:
 
     def write(self, data: bytes) -> int:
         self.carried += len(data)
+        self.board.gives(self.status())
         self.board.feed(self.noise(data, self.rng), self.baudrate)
         return len(data)
 

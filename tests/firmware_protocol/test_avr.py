@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import random
 import re
 import shutil
@@ -16,7 +17,7 @@ from simulated import Noise, whole
 
 from firmware_protocol import DeviceResetError, Fault, HostLink, NoDeviceError, PanelFaultError, VersionError
 from firmware_protocol.frames import FrameDecoder
-from firmware_protocol.messages import Ack, Hello, HelloReply, Message, Nak, Poll, Status, decode, encode
+from firmware_protocol.messages import Ack, Byte, Hello, HelloReply, Message, Nak, Poll, Status, decode, encode
 
 HELLO = b"\0" + encode(Hello(0x01020304))
 
@@ -39,11 +40,11 @@ def screens(count: int) -> list[bytes]:
     return [rng.randbytes(1024) for _ in range(count)]
 
 
-def exchange(board: Board, data: bytes) -> bytes:
+def exchange(board: Board, data: bytes, rate: int = 115200) -> bytes:
     """Send bytes and return what comes back: 12 ms let the longest work be done and the longest answer through."""
-    board.feed(data, 115200)
+    board.feed(data, rate)
     board.run(board.cycle + round((len(data) / 11520 + 0.012) * HZ))
-    return board.output(115200)
+    return board.output(rate)
 
 
 def test_the_limits_of_an_uno(binaries: tuple[Path, Path]) -> None:
@@ -112,30 +113,60 @@ def test_a_noisy_line_costs_bytes_and_no_picture(board: Board, baudrate: int) ->
     assert (port.carried - before) / len(pictures) < 2.2 * 1180
 
 
-def test_the_golden_conversations(board: Board) -> None:
+def conversations() -> dict[str, list[str]]:
     text = (FIRMWARE.parent / "vectors" / "conversations.txt").read_text()
-    for part in text.split("# ")[1:]:
-        name, *lines = part.splitlines()
-        board.reset(power=True)
-        board.panel()
+    return {name: lines for name, *lines in (part.splitlines() for part in text.split("# ")[1:])}
+
+
+@pytest.fixture(scope="module")
+def boards(binaries: tuple[Path, Path], tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], tuple[Path, Path]]:
+    """The firmware as built for one kind of device or another."""
+    options = {"control-each": "-DPD_CONTROL_EACH=1", "no-repeats": "-DPD_REPEATS=0"}
+
+    @functools.cache
+    def board(kind: str) -> tuple[Path, Path]:
+        return built(tmp_path_factory.mktemp(kind), options[kind]) if kind in options else binaries
+
+    return board
+
+
+def happens(board: Board, what: str) -> None:
+    name, _, value = what.partition(" ")
+    if name == "start":
+        board.reset()
         board.run(board.cycle + HZ // 20)
-        board.output(115200)
-        board.transactions()
-        replies, written, wanted, wanted_written = b"", [], b"", []
-        for line in lines:
-            mark, _, content = line.partition(" ")
-            if mark == "!":
-                board.panel(absent=content == "gone")
-            elif mark == ">":
-                replies += exchange(board, bytes.fromhex(content))
-                written += board.transactions()
-            elif mark == "<":
-                wanted += bytes.fromhex(content)
-            else:
-                wanted_written.append(bytes.fromhex(content))
-        if name != "a rate that is not offered":  # it changes its rate at the end
-            assert comparable(replies) == comparable(wanted), name
-        assert written == wanted_written, name
+    elif name == "wait":
+        board.run(board.cycle + int(value) * HZ // 1000)
+    elif name == "reads":
+        board.gives(int(value, 16))
+    else:
+        board.panel(absent=name == "gone")
+
+
+@pytest.mark.parametrize("name", conversations())
+def test_the_golden_conversations(boards: Callable[[str], tuple[Path, Path]], name: str) -> None:
+    lines = conversations()[name]
+    board = Board(*boards(lines[0][2:]))
+    board.run(HZ // 20)
+    board.output(115200)
+    replies, written, wanted, wanted_written, rate = b"", [], b"", [], 115200
+    for line in lines:
+        mark, _, content = line.partition(" ")
+        if mark == "!":
+            happens(board, content)
+            replies += board.output(rate)
+        elif mark == ">":
+            replies += exchange(board, bytes.fromhex(content), rate)
+            written += board.transactions()
+        elif mark in "<~":
+            wanted += bytes.fromhex(content)
+        elif mark == "=":
+            wanted_written.append(bytes.fromhex(content))
+        elif mark == "@":
+            rate = int(content)
+    assert comparable(replies) == comparable(wanted)
+    assert written == wanted_written
+    board.close()
 
 
 def comparable(replies: bytes) -> list[object]:
@@ -145,11 +176,12 @@ def comparable(replies: bytes) -> list[object]:
         assert frame is not None
         message = decode(frame)
         if isinstance(message, HelloReply):
-            found.append((message.nonce, message.version, message.present, message.max_payload, message.window))
+            said = message.present, message.repeats, message.max_payload, message.window, message.features
+            found.append((message.nonce, message.version, *said))
         elif isinstance(message, Status):
             found.append((message.token, message.expected, message.fault, message.damaged))
         else:
-            found.append(message if isinstance(message, Ack | Nak) else type(message))
+            found.append(message if isinstance(message, Ack | Nak | Byte) else type(message))
     return found
 
 

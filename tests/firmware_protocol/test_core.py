@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import functools
 import shutil
 import subprocess
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -14,7 +16,7 @@ from searching import examples
 
 from firmware_protocol import Device
 from firmware_protocol.frames import FrameDecoder, encode_frame
-from firmware_protocol.messages import Baud, Boot, Fault, Hello, Poll, Reset, Status, Write, decode, encode
+from firmware_protocol.messages import Baud, Boot, Fault, Hello, Poll, Read, Reset, Status, Write, decode, encode
 from firmware_protocol.runs import pack_runs
 
 VECTORS = FIRMWARE.parent / "vectors"
@@ -22,9 +24,31 @@ HELLO = encode(Hello(0x01020304))
 byte = st.integers(0, 255)
 
 
+Cores = Callable[[str], Core]
+OPTIONS = {
+    "": "",
+    "control-each": "-DPD_CONTROL_EACH=1",
+    "no-repeats": "-DPD_REPEATS=0",
+    "reset-line": "-DPD_RESET_LINE=1",
+    "long": "-DPD_MAX_PAYLOAD=1024 -DPD_RING_SIZE=2048",
+}
+
+
 @pytest.fixture(scope="module")
-def core(tmp_path_factory: pytest.TempPathFactory) -> Core:
-    return Core(made("host", "host/libpaneldraw.so", tmp_path_factory.mktemp("build"), "cc"))
+def cores(tmp_path_factory: pytest.TempPathFactory) -> Cores:
+    """The core as built for one kind of device or another."""
+
+    @functools.cache
+    def core(kind: str) -> Core:
+        build = tmp_path_factory.mktemp("build")
+        return Core(made("host", "host/libpaneldraw.so", build, "cc", options=OPTIONS[kind]))
+
+    return core
+
+
+@pytest.fixture(scope="module")
+def core(cores: Cores) -> Core:
+    return cores("")
 
 
 @pytest.mark.parametrize(
@@ -35,11 +59,14 @@ def core(tmp_path_factory: pytest.TempPathFactory) -> Core:
         ({"PD_RING_SIZE": 131072}, "PD_RING_SIZE must be a power of two up to 65536"),
         ({"PD_RING_SIZE": 0}, "PD_RING_SIZE must be a power of two"),
         ({"PD_RING_SIZE": 256}, "PD_RING_SIZE must hold a frame"),
-        ({"PD_RING_SIZE": 256, "PD_MAX_PAYLOAD": 202}, ""),
-        ({"PD_RING_SIZE": 256, "PD_MAX_PAYLOAD": 203}, "PD_RING_SIZE must hold a frame"),
+        ({"PD_RING_SIZE": 256, "PD_MAX_PAYLOAD": 186}, ""),
+        ({"PD_RING_SIZE": 256, "PD_MAX_PAYLOAD": 187}, "PD_RING_SIZE must hold a frame"),
         ({"PD_RING_SIZE": 65536}, ""),
-        ({"PD_MAX_PAYLOAD": 31}, "PD_MAX_PAYLOAD must be 32 to 250"),
-        ({"PD_MAX_PAYLOAD": 251}, "PD_MAX_PAYLOAD must be 32 to 250"),
+        ({"PD_MAX_PAYLOAD": 31}, "PD_MAX_PAYLOAD must be 32 to 1024"),
+        ({"PD_MAX_PAYLOAD": 1025, "PD_RING_SIZE": 4096}, "PD_MAX_PAYLOAD must be 32 to 1024"),
+        ({"PD_MAX_PAYLOAD": 1024, "PD_RING_SIZE": 2048}, ""),
+        ({"PD_MAX_PAYLOAD": 441}, ""),
+        ({"PD_MAX_PAYLOAD": 442}, "PD_RING_SIZE must hold a frame"),
         ({"PD_TX_SIZE": 256}, "PD_TX_SIZE must be a power of two up to 128"),
         ({"PD_TX_SIZE": 100}, "PD_TX_SIZE must be a power of two up to 128"),
         ({"PD_TX_SIZE": 64}, "hello_reply_fits"),
@@ -64,26 +91,49 @@ def conversations() -> dict[str, list[str]]:
     return {name: lines for name, *lines in (part.splitlines() for part in text.split("# ")[1:])}
 
 
+def happens(core: Core, what: str) -> list[str]:
+    """Let something happen to a core; return the lines of what it does then."""
+    name, _, value = what.partition(" ")
+    if name == "start":
+        return [f"< {core.start(2, int(value)).hex()}"]
+    if name == "wait":
+        core.now += int(value)
+        assert core.receive(b"") == b""
+    elif name == "reads":
+        core.gives(int(value, 16))
+    else:
+        core.panel(gone=name == "gone")
+    return []
+
+
 @pytest.mark.parametrize("name", conversations())
-def test_the_core_holds_the_golden_conversations(core: Core, name: str) -> None:
+def test_the_core_holds_the_golden_conversations(cores: Cores, name: str) -> None:
+    lines = conversations()[name]
+    core = cores(lines[0][2:] if lines[0].startswith(":") else "")
     core.start()
     held: list[str] = []
-    for line in conversations()[name]:
+    for line in lines:
         mark, _, text = line.partition(" ")
-        if mark == "!":
-            core.panel(gone=text == "gone")
-            held.append(line)
-        if mark != ">":
+        if mark not in ">!:":
             continue
         held.append(line)
-        for value in bytes.fromhex(text):
+        rate, resets = core.baudrate, core.resets
+        if mark == "!":
+            did = happens(core, text)
+            held += ["^"] * (text.startswith("start") and core.resets) + did
+        for value in bytes.fromhex(text) if mark == ">" else b"":
             answer = core.receive(bytes((value,)))
+            held += ["^"] * (core.resets - resets)
+            resets = core.resets
             held += [f"= {content.hex()}" for content in core.transactions()]
             held += [f"< {answer.hex()}"] * bool(answer)
-    assert held == conversations()[name]
+        if core.baudrate != rate:
+            held.append(f"@ {core.baudrate}")
+    assert held == [line.replace("~", "<") for line in lines]
 
 
-def test_the_core_takes_the_golden_frames_for_whole(core: Core) -> None:
+def test_the_core_takes_the_golden_frames_for_whole(cores: Cores) -> None:
+    core = cores("long")
     core.start()
     for line in (VECTORS / "frames.txt").read_text().splitlines():
         core.receive(bytes.fromhex(line.split()[3]))
@@ -104,7 +154,9 @@ SEQ = st.integers(0, 5)
 PIECES = st.one_of(
     st.builds(lambda n: encode(Hello(n)), st.integers(0, 3)),
     st.builds(lambda n, a, b: encode(Hello(n, a, b)), st.integers(0, 3), st.integers(0, 3), st.integers(0, 3)),
+    st.builds(lambda n, bits: encode(Hello(n, features=bits)), st.integers(0, 3), st.integers(0, 0xFFFF)),
     st.builds(lambda t: encode(Poll(t)), byte),
+    st.builds(lambda t: encode(Read(t)), byte),
     st.builds(lambda s, runs, end: encode(Write(s, b"".join(pack_runs(runs, 250)), end)), SEQ, RUNS, st.booleans()),
     st.builds(lambda s, p: encode(Write(s, p)), SEQ, st.binary(max_size=30)),
     st.builds(lambda s, r: encode(Baud(s, r)), SEQ, st.sampled_from([115200, 500000, 9600])),
@@ -132,8 +184,14 @@ def test_the_core_does_what_the_reference_does(core: Core, work: list[tuple[byte
         if content:
             written.append(content)
 
-    device = Device(write, clock=lambda: now / 1000)
-    assert core.start() == encode(Boot(1, 1))
+    def read() -> int:
+        if gone:
+            raise OSError(121, "Remote I/O error")
+        return 0x43
+
+    device = Device(write, read=read, clock=lambda: now / 1000)
+    assert core.start() == b"\0" + encode(Boot(1, 1))
+    core.gives(0x43)
     for piece, what in [(HELLO, ""), *work]:
         if what in ("cut", "flip") and len(piece) > 1:
             at = data.draw(st.integers(0, len(piece) - 2))
@@ -142,7 +200,7 @@ def test_the_core_does_what_the_reference_does(core: Core, work: list[tuple[byte
             gone = what == "gone"
             core.panel(gone=gone)
         elif what == "wait":
-            now = core.now = now + data.draw(st.sampled_from([100, 299, 300, 1499, 1500]))
+            now = core.now = now + data.draw(st.sampled_from([100, 299, 300, 999, 1000, 1499, 1500]))
             device.tick()
             core.receive(b"")
         elif what == "line error":

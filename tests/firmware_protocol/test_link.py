@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import random
 import tracemalloc
 from dataclasses import replace
@@ -15,6 +16,7 @@ from simulated import Noise, SimulatedPort, whole
 from firmware_protocol import (
     DeviceResetError,
     Fault,
+    Feature,
     HostLink,
     LinkError,
     LinkLostError,
@@ -427,3 +429,297 @@ def test_the_answer_to_hello_is_read_whole() -> None:
 def test_a_rate_that_is_no_rate(baudrate: int) -> None:
     with pytest.raises(ValueError, match="baudrate"):
         joined(SimulatedPort(), baudrate=baudrate)
+
+
+# What goes wrong heals at once
+
+
+@pytest.mark.parametrize("damage", [b"\x84\x55\0", b"\x01\x02\0", b"\x03\x84\x05\x03\xd4\xf2\0"])
+def test_a_damaged_acknowledgement_is_asked_for_at_once(damage: bytes) -> None:
+    port = SimulatedPort()
+    link = joined(port)
+    left = [damage]
+    port.mangle = lambda replies: left.pop() if left else replies
+    start = port.now
+    link.write([(True, b"\1")])
+    assert port.now - start < 0.005
+    assert (link.stats.timeouts, link.stats.resent) == (0, 0)
+
+
+def test_a_line_that_brings_nothing_but_damage_is_not_asked_more_often_than_the_ring_bears() -> None:
+    port = SimulatedPort()
+    link = joined(port, timeout=10.0, baudrate=115_200)
+    port.busy_until = port.now + 4.0
+    polls = []
+    write = port.write
+
+    def counted(data: bytes) -> int:
+        polls.extend(frame for frame in FrameDecoder().feed(data) if frame and frame.kind == 0x02)
+        return write(data)
+
+    port.write = counted  # type: ignore[method-assign]
+    for at in range(200):
+        port.at(port.now + at * 0.01, lambda: port.received.extend(b"\5\5\0"))
+    link.write([(True, random.Random(1).randbytes(1024))])
+    assert port.device.counters.overflows == 0
+    assert 4 < len(polls) <= 9
+
+
+@pytest.mark.parametrize("answered", [0, 1, 2])
+def test_a_status_that_answers_any_poll_of_the_recovery_counts(answered: int) -> None:
+    port = SimulatedPort()
+    link = joined(port, timeout=10.0, baudrate=115_200)
+    asked = 0
+
+    def only_one(replies: bytes) -> bytes:
+        nonlocal asked
+        asked += 0x82 in [frame.kind for frame in FrameDecoder().feed(replies) if frame]
+        if asked == answered + 1:  # comes when the next POLL has gone
+            port.at(port.now + 1.1, lambda: port.received.extend(replies))
+            port.mangle = lambda replies: b""
+        return b""
+
+    port.mangle = only_one
+    link.write([(True, b"\1")])
+    assert link.stats.timeouts >= answered + 2
+    port.mangle = lambda replies: replies
+    cost(port, link, screens(1))
+    assert link.stats.sessions == 1
+
+
+def test_one_acknowledgement_stands_for_several_frames() -> None:
+    port = SimulatedPort()
+    link = joined(port, baudrate=115_200)
+    held: list[bytes] = []
+
+    def merged(replies: bytes) -> bytes:
+        held.extend([replies] * bool(replies))
+        return replies if len(held) % 3 == 0 else b""
+
+    port.mangle = merged
+    for number in range(9):
+        link.submit([(True, bytes((number,)))])
+    link.drain()
+    assert len(held) == 9
+    assert (link.stats.timeouts, link.stats.resent) == (0, 0)
+
+
+def lost_count(port: SimulatedPort) -> None:
+    port.device._expected = 77
+
+
+def another_start(port: SimulatedPort) -> None:
+    port.device.boot = 9
+
+
+@pytest.mark.parametrize("trouble", [lost_count, another_start])
+def test_a_device_that_lost_count_is_asked_anew_at_the_rate_it_has(trouble) -> None:
+    port = SimulatedPort()
+    link = joined(port)
+    cost(port, link, screens(1))
+    trouble(port)
+    with pytest.raises(DeviceResetError):
+        link.status()
+    start = port.now
+    cost(port, link, screens(1))
+    assert port.now - start < 0.1
+    assert link.baudrate == port.device.baudrate == 500_000
+
+
+def test_a_status_that_nobody_asked_for_does_no_harm() -> None:
+    port = SimulatedPort()
+    link = joined(port)
+    link.write([(True, b"\1")])
+    port.received += encode(Status(77, 99, Fault.DATA_NACK, boot=5))
+    start = port.now
+    cost(port, link, screens(1))
+    assert port.now - start < 0.1
+    assert link.stats.sessions == 1
+
+
+# Rates that do not work, and work later
+
+
+def refuses_rates(port: SimulatedPort) -> None:
+    port.device._change_rate = lambda rate: port.device._fail(Fault.BAUD_NOT_OFFERED)  # type: ignore[method-assign]
+
+
+def test_a_rate_that_the_device_refuses_after_all_is_gone_without_and_tried_again_later() -> None:
+    port = SimulatedPort()
+    change = port.device._change_rate
+    refuses_rates(port)
+    link = joined(port)
+    assert link.baudrate == 115_200
+    cost(port, link, screens(1))
+    port.device._change_rate = change  # type: ignore[method-assign]
+    port.now += 9
+    cost(port, link, screens(1))
+    assert link.baudrate == 115_200
+    port.now += 2
+    cost(port, link, screens(1))
+    assert link.baudrate == port.device.baudrate == 500_000
+    assert link.stats.sessions == 1
+
+
+def test_a_rate_that_never_works_is_tried_ever_more_rarely() -> None:
+    port = SimulatedPort()
+    refuses_rates(port)
+    tries: list[float] = []
+    fail = port.device._change_rate
+    port.device._change_rate = lambda rate: (tries.append(port.now), fail(rate))  # type: ignore[method-assign]
+    link = joined(port)
+    while port.now < 4000:
+        port.now += 5
+        link.write([(True, b"\1")])
+    pauses = [later - before for before, later in itertools.pairwise(tries)]
+    assert [round(pause, -1) for pause in pauses[:6]] == [10, 20, 40, 80, 160, 320]
+    assert all(640 <= pause < 650 for pause in pauses[6:])
+    assert len(pauses) > 8
+
+
+def test_an_adapter_that_is_slow_for_a_while_becomes_fast() -> None:
+    port = Slow()
+    port.honest = False
+    link = joined(port)
+    assert link.baudrate == 115_200
+    port.__class__ = SimulatedPort
+    port.__dict__["baudrate"] = port.rate
+    port.now += 11
+    cost(port, link, screens(1))
+    assert link.baudrate == port.device.baudrate == 500_000
+    assert link.stats.sessions == 1
+
+
+def test_a_restart_that_shows_when_a_rate_is_tried_again_fails_the_work() -> None:
+    port = SimulatedPort()
+    refuses_rates(port)
+    link = joined(port)
+    port.device.reset(1)
+    port.now += 11
+    with pytest.raises(DeviceResetError):
+        link.write([(True, b"\1")])
+    cost(port, link, screens(1))
+
+
+def test_a_silence_at_a_fast_rate_ends_at_the_first_and_the_fast_one_comes_back() -> None:
+    port = SimulatedPort()
+    link = joined(port)
+    port.mangle = lambda replies: b"" if port.device.baudrate > 115_200 else replies
+    cost(port, link, screens(1))
+    assert link.baudrate == port.device.baudrate == 115_200
+    port.mangle = lambda replies: replies
+    port.now += 11
+    cost(port, link, screens(1))
+    assert link.baudrate == port.device.baudrate == 500_000
+    assert link.stats.sessions == 1
+
+
+# Within the time that the caller has
+
+
+@pytest.mark.parametrize("timeout", [0.3, 0.5, 1.0, 3.0])
+@pytest.mark.parametrize("baudrate", [115_200, 500_000])
+def test_the_timeout_bounds_a_call_to_a_device_that_is_silent(timeout: float, baudrate: int) -> None:
+    port = SimulatedPort()
+    link = joined(port, timeout=timeout, baudrate=baudrate)
+    port.mangle = lambda replies: b""
+    for _ in range(3):
+        start = port.now
+        with pytest.raises((LinkTimeoutError, NoDeviceError)):
+            link.write(whole(screens(1)[0]))
+        assert port.now - start < timeout + 0.1
+    port.mangle = lambda replies: replies
+    cost(port, link, screens(1))
+
+
+@pytest.mark.parametrize("timeout", [0.5, 2.0])
+def test_the_timeout_bounds_a_call_over_a_line_that_passes_nothing_whole(timeout: float) -> None:
+    port = SimulatedPort()
+    link = joined(port, timeout=timeout)
+    carry = port.device.receive
+    port.device.receive = lambda data: carry(b"\x80" if data == b"\x55" else data)  # type: ignore[method-assign]
+    start = port.now
+    with pytest.raises(LinkTimeoutError):
+        link.write([(True, b"\x55")])
+    assert port.now - start < timeout + 0.1
+
+
+def test_a_long_picture_may_take_longer_than_the_timeout() -> None:
+    port = SimulatedPort()
+    link = joined(port, timeout=0.3, baudrate=115_200)
+    start = port.now
+    link.write([(True, random.Random(2).randbytes(8192))])
+    assert port.now - start > 0.6
+
+
+# Features
+
+
+def test_a_byte_read_from_the_panel() -> None:
+    port = SimulatedPort()
+    port.device.read = lambda: 0x43
+    link = joined(port)
+    assert link.device.features & Feature.READ
+    assert link.read_panel() == 0x43
+    lost = [0, 1]
+    port.mangle = lambda replies: b"\1\2\0" if lost and lost.pop() else replies
+    assert link.read_panel() == 0x43
+
+    def gone() -> int:
+        raise OSError(121, "Remote I/O error")
+
+    port.device.read = gone
+    with pytest.raises(PanelFaultError, match="0x3c") as caught:
+        link.read_panel()
+    assert caught.value.fault == Fault.ADDRESS_NACK
+    cost(port, link, screens(1))
+    port.mangle = lambda replies: b""
+    with pytest.raises(LinkTimeoutError):
+        link.read_panel()
+    port.mangle = lambda replies: replies
+    cost(port, link, screens(1))
+    assert link.stats.sessions == 1
+
+
+def test_a_device_that_cannot_read_is_not_asked_to() -> None:
+    port = SimulatedPort()
+    link = joined(port)
+    sent = link.stats.bytes_sent
+    with pytest.raises(LinkError, match="cannot read"):
+        link.read_panel()
+    assert link.stats.bytes_sent == sent
+
+
+def test_a_panel_that_goes_while_nothing_is_sent_is_told_at_the_next_write() -> None:
+    port = SimulatedPort()
+    link = joined(port)
+    cost(port, link, screens(1))
+    port.panel.gone = True
+    port.now += 1.5
+    port.device.tick()
+    port.panel.gone = False
+    with pytest.raises(PanelFaultError) as caught:
+        link.write(whole(screens(1)[0]))
+    assert caught.value.fault == Fault.ADDRESS_NACK
+    cost(port, link, screens(1))
+
+
+def test_features_of_later_times_do_no_harm() -> None:
+    port = SimulatedPort(profile=replace(UNO, features=0xFFFC))
+    link = joined(port)
+    assert link.device.features == 0xFFFC
+    cost(port, link, screens(1))
+
+
+def test_an_spi_that_stops_has_no_pull_ups_to_check() -> None:
+    port = SimulatedPort(profile=replace(UNO, bus=PanelBus.SPI, address=0, acknowledges=False))
+    link = joined(port)
+
+    def stuck(content: bytes) -> None:
+        raise OSError(110, "timed out")
+
+    port.panel = stuck
+    with pytest.raises(PanelFaultError, match="SPI has stopped: press the board's reset") as caught:
+        link.write([(True, b"\1")])
+    assert caught.value.fault == Fault.BUS_STUCK
+    assert "pull-up" not in str(caught.value)

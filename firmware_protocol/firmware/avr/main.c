@@ -101,7 +101,6 @@ int main(void)
 {
     DDRB |= _BV(RESET_PIN);
     pd_panel_init();
-    pd_port_reset_panel();
     TCCR0A = _BV(WGM01);
     TCCR0B = _BV(CS01) | _BV(CS00); /* F_CPU / 64 */
     OCR0A = F_CPU / 64 / 1000 - 1;

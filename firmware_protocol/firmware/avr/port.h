@@ -20,6 +20,7 @@
 #ifndef PD_ADDRESS
 #define PD_ADDRESS 0x3C
 #endif
+#define PD_READS 1
 #endif
 /* PD_CONTROLLER, PD_WIDTH and PD_HEIGHT come from the Makefile. */
 #define PD_FIRMWARE "paneldraw-atmega328p 1.0"

@@ -15,6 +15,7 @@
  * instead of the 60 that saving all registers first would take.
  */
 static uint16_t next_step;
+static bool reading;
 #define READY 0
 #define SENT 1
 
@@ -59,6 +60,21 @@ static void bus_end(enum pd_fault fault)
     pd_bus_done(fault);
 }
 
+/* What is no byte that the panel took: the byte that it gives, or an end. */
+static void other(uint8_t status)
+{
+    if (status == TW_MR_SLA_ACK) {
+        TWCR = TWI_ON; /* its first byte is its last */
+    } else if (status == TW_MR_DATA_NACK) {
+        pd_bus_took(TWDR);
+        bus_end(PD_OK);
+    } else if (status == TW_MT_SLA_NACK || status == TW_MR_SLA_NACK) {
+        bus_end(PD_ADDRESS_NACK);
+    } else {
+        bus_end(status == TW_MT_DATA_NACK ? PD_DATA_NACK : PD_BUS_STUCK);
+    }
+}
+
 void __vector_panel(void) __attribute__((signal, used, externally_visible));
 void __vector_panel(void)
 {
@@ -69,10 +85,10 @@ void __vector_panel(void)
     if (sent) {
         look_ahead();
     } else if (status == TW_START || status == TW_REP_START) {
-        TWDR = PD_ADDRESS << 1;
+        TWDR = PD_ADDRESS << 1 | reading;
         TWCR = TWI_ON;
     } else if (status != TW_MT_DATA_ACK && status != TW_MT_SLA_ACK) {
-        bus_end(status == TW_MT_SLA_NACK ? PD_ADDRESS_NACK : status == TW_MT_DATA_NACK ? PD_DATA_NACK : PD_BUS_STUCK);
+        other(status);
     } else if (step < PD_START) {
         TWDR = (uint8_t)step;
         TWCR = TWI_ON;
@@ -90,7 +106,7 @@ void pd_port_bus_start(void)
 {
     for (uint8_t patience = 255; TWCR & _BV(TWSTO) && patience; patience--)
         ;
-    pd_bus_next(); /* the first is PD_START */
+    reading = pd_bus_next() == PD_READ; /* the first is this or PD_START */
     look_ahead();
     GPIOR0 = 0;
     PD_GUARDED(TWCR = TWI_ON | _BV(TWSTA)); /* not before the step is there */

@@ -4,7 +4,7 @@
 #define COMMANDS 0x80
 #define REPEATS 0xC0
 
-enum { RUN_NONE, RUN_COMMANDS, RUN_DATA, RUN_PROBE };
+enum { RUN_NONE, RUN_COMMANDS, RUN_DATA, RUN_PROBE, RUN_READ };
 
 struct pd_bus pd_bus;
 
@@ -24,6 +24,8 @@ bool pd_tokens_valid(uint16_t at, uint16_t end)
     while (left) {
         uint8_t header = pd_rx.ring[at];
         uint8_t size = 2;
+        if (header >= REPEATS && !PD_REPEATS)
+            return false;
         if (header < COMMANDS)
             size = header + 2;
         else if (header < REPEATS)
@@ -36,15 +38,30 @@ bool pd_tokens_valid(uint16_t at, uint16_t end)
     return true;
 }
 
-void pd_bus_write(uint16_t at, uint16_t end)
+static void begin(uint16_t at, uint16_t end, uint8_t run)
 {
     pd_bus.at = at;
     pd_bus.end = end;
     pd_bus.left = pd_bus.trailing = 0;
     pd_bus.control = false;
-    pd_bus.run = at == end ? RUN_PROBE : RUN_NONE;
+    pd_bus.run = run;
     PD_GUARDED(pd_bus.state = PD_BUS_BUSY); /* not before the rest is there */
     pd_port_bus_start();
+}
+
+void pd_bus_write(uint16_t at, uint16_t end)
+{
+    begin(at, end, at == end ? RUN_PROBE : RUN_NONE);
+}
+
+void pd_bus_read(void)
+{
+    begin(0, 0, RUN_READ);
+}
+
+void pd_bus_took(uint8_t byte)
+{
+    pd_bus.value = byte;
 }
 
 void pd_bus_done(enum pd_fault fault)
@@ -91,6 +108,10 @@ uint16_t pd_bus_next(void)
         if (pd_bus.run == RUN_PROBE) {
             pd_bus.run = RUN_NONE;
             return PD_START;
+        }
+        if (PD_READS && pd_bus.run == RUN_READ) {
+            pd_bus.run = RUN_NONE;
+            return PD_READ;
         }
         if (pd_bus.at == pd_bus.end)
             return PD_STOP;

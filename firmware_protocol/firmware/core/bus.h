@@ -10,7 +10,7 @@ struct pd_bus {
     uint16_t at, end;     /* the tokens, in the ring */
     uint8_t left;         /* bytes left of the commands, the data or the repeat */
     uint8_t trailing;     /* data bytes of the token that come after its commands */
-    uint8_t value;        /* the byte that is repeated */
+    uint8_t value;        /* the byte that is repeated, or was read */
     uint8_t run;          /* what the transaction carries */
     bool repeats;         /* whether it is a repeat */
     bool control;         /* whether a control byte is due */
@@ -24,5 +24,7 @@ extern struct pd_bus pd_bus;
 bool pd_tokens_valid(uint16_t at, uint16_t end);
 /* Write them to the panel; with none, see whether the panel answers. */
 void pd_bus_write(uint16_t at, uint16_t end);
+/* Read a byte from the panel, to pd_bus.value. */
+void pd_bus_read(void);
 
 #endif

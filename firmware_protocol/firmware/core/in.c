@@ -1,7 +1,7 @@
 /* The bytes from the line: frames, decoded where they lie. */
 #include "in.h"
 
-#define BURST 32 /* bytes that are decoded at a time */
+#define BURST 48 /* bytes that are decoded at a time */
 
 struct in in;
 
@@ -67,13 +67,15 @@ static enum in_event end_frame(void)
     if (in.block)
         return IN_FRAME;
     in_begin(); /* an empty frame is nothing */
-    return IN_NOTHING;
+    return IN_PART;
 }
 
 enum in_event in_decode(void)
 {
     uint16_t head;
     PD_GUARDED(head = pd_rx.head);
+    if (in.read == head)
+        return IN_IDLE;
     for (uint8_t burst = BURST; burst && in.read != head; burst--) {
         if (!in.damaged) {
             burst -= keep_block(head, burst - 1);
@@ -96,5 +98,5 @@ enum in_event in_decode(void)
             in.left = byte - 1;
         }
     }
-    return IN_NOTHING;
+    return IN_PART;
 }

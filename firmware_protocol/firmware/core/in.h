@@ -16,9 +16,9 @@ struct in {
 };
 extern struct in in;
 
-enum in_event { IN_NOTHING, IN_FRAME, IN_DAMAGED };
+enum in_event { IN_IDLE, IN_PART, IN_FRAME, IN_DAMAGED };
 
-/* Decodes some of what has come, to the end of a frame at most; after one, in_begin begins the next. */
+/* Decodes some of what has come, if anything has, to the end of a frame at most; after one, in_begin begins the next. */
 enum in_event in_decode(void);
 void in_begin(void);
 /* Throws away what has come. */

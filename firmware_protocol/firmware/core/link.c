@@ -6,11 +6,13 @@
 #define BASE_RATE 115200UL
 #define PROBATION_MS 300
 #define DOUBT_MS 1500
+#define QUIET_MS 1000
 #define BUS_PATIENCE_MS 25
 
 enum kind {
     HELLO = 0x01,
     POLL = 0x02,
+    READ = 0x03,
     WRITE = 0x10,
     WRITE_END = 0x11,
     BAUD = 0x12,
@@ -20,9 +22,14 @@ enum kind {
     BOOT = 0x83,
     ACK = 0x84,
     NAK = 0x85,
+    BYTE = 0x86,
+    LOOK = 0xFF, /* no message: whether the panel is still there */
 };
 
-enum owed { OWE_ACK = 1, OWE_NAK = 2, OWE_STATUS = 4, OWE_HELLO = 8, OWE_BOOT = 16 };
+enum feature { WATCH = 1, READS = 2 };
+#define FEATURES ((PD_BUS == PD_BUS_IS_I2C ? WATCH : 0) | (PD_READS ? READS : 0))
+
+enum owed { OWE_ACK = 1, OWE_NAK = 2, OWE_STATUS = 4, OWE_HELLO = 8, OWE_BOOT = 16, OWE_BYTE = 32 };
 
 struct frame {
     uint8_t kind; /* 0 for none */
@@ -34,11 +41,12 @@ struct pd_receiver pd_rx;
 
 static struct {
     struct frame running, ready;
-    uint8_t owed, expected, done, fault, version, token, reason, cause;
-    bool armed, present, doubtful;
-    uint16_t boot, damaged, line_errors, revert_at, bus_until;
+    uint8_t owed, expected, done, fault, version, token, reason, cause, features;
+    uint8_t read_token, read_fault, read_value;
+    bool armed, present, fast, doubtful; /* fast: at another rate than the first */
+    uint16_t boot, damaged, line_errors, revert_at, bus_until, quiet_since;
     uint8_t bus_steps;
-    uint32_t rate, next_rate;
+    uint32_t next_rate;
     uint8_t nonce[4];
 } link;
 
@@ -47,7 +55,7 @@ static const char controller[] PD_FLASH = PD_CONTROLLER;
 static const char firmware[] PD_FLASH = PD_FIRMWARE;
 #define RATES (sizeof rates / sizeof rates[0])
 /* The longest reply is written whole before it goes out. */
-typedef char hello_reply_fits[29 + 4 * RATES + sizeof controller + sizeof firmware <= PD_TX_SIZE ? 1 : -1];
+typedef char hello_reply_fits[32 + 4 * RATES + sizeof controller + sizeof firmware <= PD_TX_SIZE ? 1 : -1];
 
 static inline uint8_t at(uint16_t position)
 {
@@ -65,7 +73,7 @@ static void put_name(const char *name, uint8_t size)
 
 static void say_hello(void)
 {
-    out_begin(HELLO_REPLY, 0);
+    out_begin_apart(HELLO_REPLY, 0);
     for (uint8_t i = 0; i < 4; i++)
         out_byte(link.nonce[i]);
     out_byte(link.version);
@@ -76,7 +84,7 @@ static void say_hello(void)
     out_byte(PD_BUS);
     out_byte(PD_ADDRESS);
     out_byte((PD_BUS == PD_BUS_IS_I2C) | link.present << 1 | PD_RESET_LINE << 2);
-    out_byte(1);
+    out_byte(PD_REPEATS);
     out_put(PD_MAX_PAYLOAD, 2);
     out_put(PD_WINDOW, 2);
     out_put(PD_WIDTH, 2);
@@ -89,6 +97,7 @@ static void say_hello(void)
     }
     put_name(controller, sizeof controller);
     put_name(firmware, sizeof firmware);
+    out_put(FEATURES, 2);
     out_finish();
 }
 
@@ -101,7 +110,7 @@ static uint16_t counter(volatile uint16_t *value)
 
 static void say_status(void)
 {
-    out_begin(STATUS, link.token);
+    out_begin_apart(STATUS, link.token);
     out_byte(link.expected);
     out_byte(link.fault);
     out_put(link.boot, 2);
@@ -136,8 +145,14 @@ static void reply(void)
     } else if (owed & OWE_HELLO) {
         say_hello();
         owed &= ~OWE_HELLO;
+    } else if (owed & OWE_BYTE) {
+        out_begin_apart(BYTE, link.read_token);
+        out_byte(link.read_fault);
+        out_byte(link.read_value);
+        out_finish();
+        owed &= ~OWE_BYTE;
     } else {
-        out_begin(BOOT, 0);
+        out_begin_apart(BOOT, 0);
         out_put(link.boot, 2);
         out_byte(link.cause);
         out_finish();
@@ -165,7 +180,9 @@ static void complete(void)
 {
     if (link.running.kind == HELLO) {
         link.owed |= OWE_HELLO;
-    } else if (link.running.kind != POLL) {
+    } else if (link.running.kind == READ) {
+        link.owed |= OWE_BYTE;
+    } else if (link.running.kind != POLL && link.running.kind != LOOK) {
         link.done = link.running.seq;
         link.owed |= OWE_ACK;
     }
@@ -206,6 +223,13 @@ static bool execute(const struct frame *frame)
         link.armed = true;
         link.owed |= OWE_STATUS;
         return false;
+    case READ:
+        link.read_token = frame->seq;
+        pd_bus_read();
+        return true;
+    case LOOK:
+        pd_bus_write(0, 0);
+        return true;
     case WRITE:
     case WRITE_END:
         if (link.fault || frame->payload == frame->end)
@@ -226,7 +250,7 @@ static bool execute(const struct frame *frame)
             return false;
         }
         link.fault = PD_OK;
-        if (at(frame->payload) & 1)
+        if (PD_RESET_LINE && at(frame->payload) & 1)
             pd_port_reset_panel();
         return false;
     default:
@@ -241,6 +265,38 @@ static bool may_begin(void)
     uint8_t kind = link.ready.kind;
     uint8_t bearable = kind == WRITE || kind == WRITE_END ? OWE_ACK : 0;
     return kind && !link.next_rate && !(link.owed & ~bearable);
+}
+
+static void bus_ended(uint8_t fault)
+{
+    if (link.running.kind == HELLO) {
+        link.present = fault == PD_OK;
+    } else if (link.running.kind == READ) {
+        link.read_fault = fault;
+        link.read_value = fault ? 0 : pd_bus.value;
+    } else {
+        fail(fault);
+    }
+}
+
+static void run(void)
+{
+    link.bus_steps = pd_bus.steps - 1;
+    if (!execute(&link.running))
+        complete();
+}
+
+/* Looks at the panel when nothing has come for so long. */
+static void watch(uint16_t now)
+{
+    if ((uint16_t)(now - link.quiet_since) < QUIET_MS || link.running.kind)
+        return;
+    link.quiet_since = now;
+    if (!(link.features & WATCH) || link.fault)
+        return;
+    link.running.kind = LOOK;
+    link.running.start = in.start;
+    run();
 }
 
 static void work(uint16_t now)
@@ -258,18 +314,13 @@ static void work(uint16_t now)
             pd_bus_done(PD_BUS_STUCK);
         }
         pd_bus.state = PD_BUS_IDLE;
-        if (link.running.kind == HELLO)
-            link.present = pd_bus.fault == PD_OK;
-        else
-            fail(pd_bus.fault);
+        bus_ended(pd_bus.fault);
         complete();
     }
     if (may_begin()) {
         link.running = link.ready;
         link.ready.kind = 0;
-        link.bus_steps = pd_bus.steps - 1;
-        if (!execute(&link.running))
-            complete();
+        run();
     }
 }
 
@@ -277,7 +328,7 @@ static void work(uint16_t now)
 
 static void doubt(uint16_t now, uint16_t patience)
 {
-    if (link.rate != BASE_RATE && !link.doubtful) {
+    if (link.fast && !link.doubtful) {
         link.doubtful = true;
         link.revert_at = now + patience;
     }
@@ -307,6 +358,9 @@ static void greet(void)
     if (newest > PD_NEWEST_VERSION)
         newest = PD_NEWEST_VERSION;
     link.version = newest >= oldest && newest >= PD_OLDEST_VERSION ? newest : 0;
+    link.features = 0;
+    if (link.version && in.length >= IN_ENVELOPE + 8)
+        link.features = at(in.start + 8) & FEATURES;
     link.expected = 0;
     link.armed = true;
     queue(HELLO, 0);
@@ -335,12 +389,12 @@ static void take_frame(void)
     link.doubtful = false;
     if (kind == HELLO)
         greet();
-    else if (kind != POLL && (kind & 0xF0) != 0x10)
+    else if (kind != POLL && !(PD_READS && kind == READ) && (kind & 0xF0) != 0x10)
         return;
     else if (!link.version)
         link.owed |= OWE_BOOT;
-    else if (kind == POLL)
-        queue(POLL, seq);
+    else if (kind < WRITE)
+        queue(kind, seq);
     else
         take_sequenced(kind, seq);
 }
@@ -348,16 +402,32 @@ static void take_frame(void)
 static void listen(uint16_t now)
 {
     enum in_event event = in_decode();
+    if (event == IN_IDLE) {
+        watch(now);
+        return;
+    }
+    link.quiet_since = now;
+    if (link.fast)
+        doubt(now, DOUBT_MS);
     if (event == IN_FRAME) {
         take_frame();
     } else if (event == IN_DAMAGED) {
         link.damaged++;
-        doubt(now, DOUBT_MS);
         if (link.version)
             nak(1);
     }
-    if (event != IN_NOTHING)
+    if (event != IN_PART)
         in_begin();
+    release();
+}
+
+/* What came at the old rate is thrown away. */
+static void set_rate(uint32_t rate)
+{
+    link.fast = rate != BASE_RATE;
+    link.doubtful = false;
+    pd_port_set_rate(rate);
+    in_skip();
     release();
 }
 
@@ -369,29 +439,25 @@ static void mind_rate(uint16_t now)
         doubt(now, DOUBT_MS);
     }
     if (link.next_rate && !link.owed && pd_port_transmitted()) {
-        link.rate = link.next_rate;
+        set_rate(link.next_rate);
         link.next_rate = 0;
-        link.doubtful = false;
-        pd_port_set_rate(link.rate);
         doubt(now, PROBATION_MS);
     }
     if (link.doubtful && (int16_t)(now - link.revert_at) >= 0) {
-        link.doubtful = false;
-        link.rate = BASE_RATE;
-        pd_port_set_rate(BASE_RATE);
-        in_skip();
+        set_rate(BASE_RATE);
     }
 }
 
 void pd_start(uint16_t boot, uint8_t cause)
 {
     link.running.kind = link.ready.kind = 0;
-    link.version = link.fault = link.expected = 0;
+    if (PD_RESET_LINE)
+        pd_port_reset_panel();
+    link.version = link.fault = link.expected = link.features = 0;
     link.done = 0xFF;
-    link.armed = link.doubtful = false;
+    link.armed = link.fast = link.doubtful = false;
     link.damaged = link.line_errors = 0;
     link.next_rate = 0;
-    link.rate = BASE_RATE;
     link.boot = boot;
     link.cause = cause;
     link.owed = OWE_BOOT;

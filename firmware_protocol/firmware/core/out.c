@@ -28,14 +28,25 @@ void out_put(uint16_t value, uint8_t bytes)
         out_byte((uint8_t)value);
 }
 
-void out_begin(uint8_t kind, uint8_t seq)
+static void begin(uint8_t at, uint8_t kind, uint8_t seq)
 {
-    out.code = out.head;
+    out.code = at;
     out.at = out.code + 1;
     out.block = 1;
     out.crc = 0xFFFF;
     out_byte(kind);
     out_byte(seq);
+}
+
+void out_begin(uint8_t kind, uint8_t seq)
+{
+    begin(out.head, kind, seq);
+}
+
+void out_begin_apart(uint8_t kind, uint8_t seq)
+{
+    out.ring[out.head & (PD_TX_SIZE - 1)] = 0;
+    begin(out.head + 1, kind, seq);
 }
 
 void out_finish(void)

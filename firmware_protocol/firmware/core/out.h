@@ -5,6 +5,8 @@
 #include "paneldraw.h"
 
 void out_begin(uint8_t kind, uint8_t seq);
+/* The same behind a delimiter of its own: the rest of a frame that broke off does not swallow it. */
+void out_begin_apart(uint8_t kind, uint8_t seq);
 void out_byte(uint8_t byte);
 /* The lowest bytes of a number, lowest first. */
 void out_put(uint16_t value, uint8_t bytes);

@@ -14,17 +14,24 @@
 #include "port.h"
 
 #define PD_RING_MASK (PD_RING_SIZE - 1)
-/* What may come beside the host's credits: HELLO, POLL and delimiters. */
-#define PD_RESERVE 48
+/* What may come beside the host's credits: POLLs of 7 bytes each, HELLO, READ and delimiters. */
+#define PD_RESERVE 64
 #define PD_WINDOW (PD_RING_SIZE - PD_RESERVE)
-/* What a frame of up to 254 bytes holds besides its payload: kind, seq, checksum, one byte of COBS and the delimiter. */
-#define PD_FRAME_OVERHEAD 6
+/* What a frame holds besides its payload: kind, seq, checksum, the delimiter, and one byte of COBS and more. */
+#define PD_FRAME_OVERHEAD (6 + (PD_MAX_PAYLOAD + 3) / 254)
+/* Whether repeats are understood; whether the panel's bus can read a byte from the panel. */
+#ifndef PD_REPEATS
+#define PD_REPEATS 1
+#endif
+#ifndef PD_READS
+#define PD_READS 0
+#endif
 
 #if PD_RING_SIZE < 1 || PD_RING_SIZE & (PD_RING_SIZE - 1) || PD_RING_SIZE > 65536
 #error "PD_RING_SIZE must be a power of two up to 65536: places in it are 16 bits"
 #endif
-#if PD_MAX_PAYLOAD < 32 || PD_MAX_PAYLOAD > 250
-#error "PD_MAX_PAYLOAD must be 32 to 250: a host sends no less, and a frame has one byte of COBS"
+#if PD_MAX_PAYLOAD < 32 || PD_MAX_PAYLOAD > 1024
+#error "PD_MAX_PAYLOAD must be 32 to 1024: a host sends no less, and more keeps the panel waiting"
 #endif
 #if PD_MAX_PAYLOAD + PD_FRAME_OVERHEAD > PD_WINDOW
 #error "PD_RING_SIZE must hold a frame of PD_MAX_PAYLOAD and what comes beside the window"
@@ -93,7 +100,9 @@ bool pd_transmit(uint8_t *byte);
 /* What the panel's bus has to do next: a byte (00 to FF), or one of these. */
 #define PD_START 0x100 /* end the transaction if there is one, begin another: start, address, write */
 #define PD_STOP 0x200  /* end the transaction and call pd_bus_done */
+#define PD_READ 0x300  /* with PD_READS alone: start, address, read, a byte for pd_bus_took; then comes PD_STOP */
 uint16_t pd_bus_next(void);
+void pd_bus_took(uint8_t byte);
 void pd_bus_done(enum pd_fault fault);
 
 /* Begin to do what pd_bus_next says, in the background or at once. */

@@ -31,12 +31,14 @@ bool host_bus_step(void)
     if (!host.on || host.stuck)
         return false;
     uint16_t step = pd_bus_next();
-    if (step == PD_START) {
-        if (host.gone) {
-            host.on = false;
-            pd_bus_done(PD_ADDRESS_NACK);
-            return false;
-        }
+    if ((step == PD_START || step == PD_READ) && host.gone) {
+        host.on = false;
+        pd_bus_done(PD_ADDRESS_NACK);
+        return false;
+    }
+    if (step == PD_READ) {
+        pd_bus_took(host.status);
+    } else if (step == PD_START) {
         host.idle = false;
         host.length = host.size;
         note(0);
@@ -108,6 +110,16 @@ uint16_t host_written(uint8_t *bytes)
         bytes[i] = host.bytes[i];
     host.size = 0;
     return size;
+}
+
+void host_set_status(uint8_t status)
+{
+    host.status = status;
+}
+
+unsigned host_resets(void)
+{
+    return host.resets;
 }
 
 uint32_t host_rate(void)

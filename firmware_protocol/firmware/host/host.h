@@ -8,6 +8,7 @@
 struct host {
     bool gone, slow, stuck; /* the panel does not answer, takes one step at a time, holds the bus */
     bool on, idle;
+    uint8_t status; /* what the panel gives when it is read */
     uint32_t rate;
     unsigned resets;
     size_t size, length;

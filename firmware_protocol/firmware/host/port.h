@@ -4,9 +4,14 @@
 
 #include <stdint.h>
 
+#ifndef PD_RING_SIZE
 #define PD_RING_SIZE 512
+#endif
 #define PD_TX_SIZE 128
+#ifndef PD_MAX_PAYLOAD
 #define PD_MAX_PAYLOAD 250
+#endif
+#define PD_READS 1
 #define PD_BUS PD_BUS_IS_I2C
 #define PD_ADDRESS 0x3C
 #define PD_CONTROLLER "ssd1306"
@@ -14,7 +19,9 @@
 #define PD_HEIGHT 64
 #define PD_FIRMWARE "paneldraw reference 1.0"
 #define PD_RATES {500000UL, 1000000UL, 250000UL, 115200UL}
+#ifndef PD_RESET_LINE
 #define PD_RESET_LINE 0
+#endif
 #ifndef PD_CONTROL_EACH
 #define PD_CONTROL_EACH 0
 #endif

@@ -31,6 +31,12 @@
 #define OPEN_DRAIN 0x50C
 #define DIGITAL 0x51C
 
+/* Its second time-out without a sign of life is a reset. */
+#define WATCHDOG(offset) REG(0x40000000 + (offset))
+#define WATCHDOG_LOAD 0x00
+#define WATCHDOG_CONTROL 0x08
+#define WATCHDOG_CLEAR 0x0C
+
 extern volatile uint16_t pd_milliseconds;
 void pd_panel_init(void);
 

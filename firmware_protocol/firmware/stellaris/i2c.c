@@ -10,11 +10,14 @@
 enum { RUN = 1, START = 2, STOP = 4 };
 enum { I2C_BUSY = 0x01, I2C_ERROR = 0x02, NO_DATA_ACK = 0x08, LOST = 0x10 };
 
-/* Tells the controller what to do and waits; what went wrong, if something did. */
+/* Tells the controller what to do and waits; what went wrong, if something did. A frame of repeats takes long, so each
+ * byte is a sign of life.
+ */
 static enum pd_fault command(uint32_t what)
 {
     uint32_t status;
     uint16_t since = pd_milliseconds;
+    WATCHDOG(WATCHDOG_CLEAR) = 1;
     I2C(I2C_STATUS) = what;
     do {
         if ((uint16_t)(pd_milliseconds - since) > 20)

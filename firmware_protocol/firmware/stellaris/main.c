@@ -13,12 +13,6 @@
 #define UART_IRQ 5
 enum { BUSY = 0x08, RX_EMPTY = 0x10, TX_FULL = 0x20 };
 
-/* Its second time-out without a sign of life is a reset. */
-#define WATCHDOG(offset) REG(0x40000000 + (offset))
-#define WATCHDOG_LOAD 0x00
-#define WATCHDOG_CONTROL 0x08
-#define WATCHDOG_CLEAR 0x0C
-
 #define TICK(offset) REG(0xE000E010 + (offset))
 #define ENABLE_IRQ REG(0xE000E100)
 

@@ -28,7 +28,7 @@
 enum { PORF = 1, EXTRF = 2, BORF = 4, WDRF = 8 };
 enum { U2X = 0x02, DOR = 0x08, FE = 0x10, UDRE = 0x20, TXC = 0x40, RXC = 0x80 };
 enum { TXEN = 0x08, RXEN = 0x10, UDRIE = 0x20 };
-enum { TWEN = 0x04, TWSTO = 0x10, TWSTA = 0x20, TWINT = 0x80 };
+enum { TWEN = 0x04, TWEA = 0x40, TWSTO = 0x10, TWSTA = 0x20, TWINT = 0x80 };
 enum { SPR = 0x03, CPHA = 0x04, CPOL = 0x08, MSTR = 0x10, DORD = 0x20, SPE = 0x40 };
 enum { SPI2X = 0x01, WCOL = 0x40, SPIF = 0x80 };
 /* Port B, as the SPI build has it. */
@@ -61,8 +61,8 @@ struct rig {
     uint8_t fifo[FIFO], fifo_status[FIFO], fifo_size;
     bool overrun, shifting, buffered, transmitted;
     uint8_t shift, buffer;
-    bool open, addressed;
-    uint8_t twi_status, twi_byte;
+    bool open, addressed, reading;
+    uint8_t twi_status, twi_byte, gives;
     bool absent, stuck;
     long nack_after;
     struct log log, wire;
@@ -232,18 +232,22 @@ static uint64_t twi_done(avr_t *avr, uint64_t when, void *param)
     return 0;
 }
 
-static void twi_byte(struct rig *rig)
+static void twi_byte(struct rig *rig, bool acknowledges)
 {
     uint8_t byte = *reg(rig, rig->twi->r_twdr);
     if (!rig->addressed) {
-        bool ours = byte >> 1 == 0x3C && !(byte & 1) && !rig->absent;
+        bool ours = byte >> 1 == 0x3C && !rig->absent;
         rig->addressed = true;
-        rig->twi_status = ours ? 0x18 : 0x20;
+        rig->reading = byte & 1;
+        rig->twi_status = (rig->reading ? 0x40 : 0x18) + (ours ? 0 : 8);
         if (ours) {
             rig->transaction = rig->log.size;
             note(&rig->log, 0);
             note(&rig->log, 0);
         }
+    } else if (rig->reading) {
+        *reg(rig, rig->twi->r_twdr) = rig->gives;
+        rig->twi_status = acknowledges ? 0x50 : 0x58;
     } else if (rig->absent || rig->nack_after == 0) {
         rig->twi_status = 0x30;
     } else {
@@ -283,7 +287,7 @@ static void write_twi(avr_t *avr, avr_io_addr_t at, uint8_t value, void *param)
         rig->addressed = false;
     } else {
         bits = 9;
-        twi_byte(rig);
+        twi_byte(rig, value & TWEA);
     }
     if (!rig->stuck)
         avr_cycle_timer_register(avr, bits * twi_bit(rig), twi_done, rig);
@@ -576,6 +580,12 @@ void rig_panel(struct rig *rig, bool absent, bool stuck, long nack_after)
     rig->absent = absent;
     rig->stuck = stuck;
     rig->nack_after = nack_after;
+}
+
+/* What the panel gives when it is read. */
+void rig_gives(struct rig *rig, uint8_t byte)
+{
+    rig->gives = byte;
 }
 
 /* Pulls the reset pin, or cuts the power. */
