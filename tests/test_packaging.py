@@ -109,16 +109,17 @@ def test_compiled_and_interpreted_installs_draw_the_same(without_compiler):
 def test_the_wheel_holds_the_packages_and_nothing_else(wheel):
     names = wheel.namelist()
     assert {name.partition("/")[0] for name in names} == {"paneldraw", "firmware_protocol", INFO}
-    assert {Path(name).suffix for name in names if ".dist-info/" not in name} <= {".py", ".pxd", ".typed", ".md"}
+    assert {Path(name).suffix for name in names if ".dist-info/" not in name} <= {".py", ".pxd", ".typed", ".md", ".txt"}
     expected = {
         str(file.relative_to(PROJECT))
         for package in ("paneldraw", "firmware_protocol")
-        for pattern in ("**/*.py", "**/*.pxd", "py.typed")
+        for pattern in ("**/*.py", "**/*.pxd", "py.typed", "PROTOCOL.md", "vectors/*.txt")
         for file in (PROJECT / package).glob(pattern)
         if "firmware_protocol/firmware/" not in file.as_posix()
     }
     assert expected <= set(names)
     assert {"paneldraw/py.typed", "firmware_protocol/py.typed"} <= expected
+    assert "firmware_protocol/vectors/conversations.txt" in expected
     assert not [name for name in names if re.search(r"(^|/)(tests?|build|conftest)(/|\.|$)", name)]
 
 

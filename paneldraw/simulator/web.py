@@ -10,6 +10,7 @@ import secrets
 import threading
 from collections.abc import Awaitable, Callable, Iterable
 from concurrent.futures import Future
+from functools import partial
 from importlib.util import find_spec
 from typing import TYPE_CHECKING
 from urllib.parse import urlsplit
@@ -108,10 +109,11 @@ class Server:
         from aiohttp import web
 
         self._loop, self._stop = asyncio.get_running_loop(), asyncio.Event()
-        app = web.Application(middlewares=[web.middleware(self._admit)])
-        app.add_routes([web.get("/", self._answer_page), web.get("/frames", self._feed)])
-        runner = web.AppRunner(app, access_log=None, shutdown_timeout=1)
+        runner: web.AppRunner | None = None
         try:
+            app = web.Application(middlewares=[web.middleware(partial(Server._admit, self))])
+            app.add_routes([web.get("/", self._answer_page), web.get("/frames", self._feed)])
+            runner = web.AppRunner(app, access_log=None, shutdown_timeout=1)
             await runner.setup()
             await web.TCPSite(runner, host, port).start()
             started.set_result(runner.addresses[0][1])
@@ -119,7 +121,8 @@ class Server:
         except Exception as error:  # whatever it is, `serve` waits for it
             started.set_exception(error)
         finally:
-            await runner.cleanup()
+            if runner is not None:
+                await runner.cleanup()
 
     async def _admit(
         self, request: web.Request, handler: Callable[[web.Request], Awaitable[web.StreamResponse]]

@@ -19,7 +19,7 @@ from paneldraw.errors import (
     ProtocolError,
     TransportError,
 )
-from paneldraw.transports.base import DATA, Cost, Plan, join_group
+from paneldraw.transports.base import DATA, Cost, Plan, join_group, transient
 
 if TYPE_CHECKING:
     from firmware_protocol import HelloReply, HostLink, LinkError, PanelFaultError, Status
@@ -49,7 +49,8 @@ class SerialTransport:
     baudrate : int, optional
         Bits a second, one of those that the board offers. Default: the rate that the board likes best.
     timeout : float, optional
-        Seconds to wait for the board to answer. Default: 3.0, as many boards restart when their port is opened.
+        Seconds that a call waits while the board answers and acknowledges nothing. Default: 3.0, as many boards
+        restart when their port is opened.
     clock : callable, optional
         Seconds. Default: `time.monotonic`.
 
@@ -99,7 +100,7 @@ class SerialTransport:
             raise TypeError(f"port must be a name, a URL or an object with pyserial's interface, not {port!r}")
         self._answered = False
         self._fresh = False  # whether nothing was sent since the last reset
-        opened = _open(os.fspath(port)) if named else port
+        opened = _open(os.fspath(port), timeout) if named else port
         self.name = str(getattr(opened, "name", None) or getattr(opened, "port", None) or type(opened).__name__)
         try:
             with self._translating():
@@ -128,6 +129,17 @@ class SerialTransport:
         """Ask the board for its counters."""
         with self._translating():
             return self.link.status()
+
+    def read_status(self) -> tuple[int, int]:
+        """Have the board read the panel's status byte; return it, and the bytes on the wire."""
+        from firmware_protocol import Feature
+
+        if not self.device.features & Feature.READ:
+            raise TransportError(errno.EOPNOTSUPP, f"the board on {self.name} cannot read from its panel")
+        before = self.link.stats.bytes_sent
+        with self._translating():
+            status = self.link.read_panel()
+        return status, self.link.stats.bytes_sent - before
 
     def command(self, payload: bytes) -> int:
         """Send one command message; return the bytes on the wire."""
@@ -183,9 +195,7 @@ class SerialTransport:
             case link.LinkTimeoutError():
                 return PanelTimeoutError(errno.ETIMEDOUT, text)
             case link.DeviceResetError():
-                reset = TransportError(errno.ECONNRESET, f"{text}: show again, everything will be sent")
-                reset.transient = True
-                return reset
+                return transient(TransportError(errno.ECONNRESET, f"{text}: show again, everything will be sent"))
             case link.LinkLostError():
                 code = _code(error) or errno.ENODEV
                 if code in _DENIED or code in _IN_USE:
@@ -199,13 +209,15 @@ class SerialTransport:
         text = str(error)
         if error.fault in (Fault.ADDRESS_NACK, Fault.DATA_NACK):
             kind = PanelDisconnectedError if self._answered else PanelNotFoundError
-            return kind(errno.ENXIO, text)
-        if error.fault == Fault.BUS_STUCK:
-            return PanelTimeoutError(errno.ETIMEDOUT, text)
-        return ProtocolError(text)
+            failed: TransportError = kind(errno.ENXIO, text)
+        elif error.fault == Fault.BUS_STUCK:
+            failed = PanelTimeoutError(errno.ETIMEDOUT, text)
+        else:
+            return ProtocolError(text)
+        return transient(failed) if self._answered else failed
 
 
-def _open(name: str) -> Any:
+def _open(name: str, patience: float) -> Any:
     import serial  # not needed by a script that never opens a port
 
     from firmware_protocol.line import PORT_ERRORS
@@ -215,7 +227,7 @@ def _open(name: str) -> Any:
     if elsewhere and scheme.lower() not in PYSERIAL_URLS:
         kinds = ", ".join(f"{kind}://" for kind in PYSERIAL_URLS)
         raise ValueError(f"port must be a device or one of {kinds}, not {name!r}: no other handler is reached")
-    timeout = None if "://" in name else _WRITE_TIMEOUT  # rfc2217 has none
+    timeout = None if "://" in name else min(patience, _WRITE_TIMEOUT)  # rfc2217 has none
     try:
         return serial.serial_for_url(name, BASE_BAUDRATE, exclusive=True, write_timeout=timeout)
     except PORT_ERRORS as error:

@@ -14,7 +14,7 @@ from simulated import Noise, SimulatedPort
 from paneldraw import Panel, simulator
 from paneldraw.controllers import CHIPS, SSD1306, SSD1322
 from paneldraw.demos.scenes import SCENES
-from paneldraw.errors import PanelDisconnectedError
+from paneldraw.errors import PanelDisconnectedError, PanelNotFoundError, PanelTimeoutError
 from paneldraw.transports import SerialTransport
 
 
@@ -257,3 +257,79 @@ def test_a_chip_that_is_on_spi_alone_is_refused_behind_a_board_with_i2c(board: B
     port = BoardPort(board)
     with pytest.raises(ValueError, match=r"I2C reaches.*ssd1322 is on SPI"):
         Panel(SSD1322(), SerialTransport(port, clock=port.clock))
+
+
+@pytest.mark.parametrize("end", ["reference", "emulated"])
+def test_a_panel_that_lost_its_power_for_a_moment_is_started_again(
+    request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch, end: str
+) -> None:
+    chip = simulator.SSD1306(128, 64)
+    port: BoardPort | SimulatedPort
+    if end == "emulated":
+        port = BoardPort(request.getfixturevalue("board"))
+        port.status = lambda: chip.read(1)[0]
+    else:
+        port = SimulatedPort()
+        port.device.read = lambda: chip.read(1)[0]
+    port.panel = chip.write
+    with Panel(SSD1306(128, 64), SerialTransport(port, clock=port.clock)) as panel:
+        checked(panel, port, chip)
+        monkeypatch.setattr("paneldraw.panel._LOOK", 0.0)
+        chip.power_cycle()
+        picture = draw(panel, 3)
+        port.read()
+        np.testing.assert_array_equal(chip.pixels, picture)
+        assert (panel.stats.restarts, panel.stats.retries) == (1, 0)
+        checked(panel, port, chip)
+        assert panel.stats.restarts == 1
+
+
+def test_a_panel_that_says_nothing_of_itself_is_missed_while_nothing_is_sent(board: Board) -> None:
+    port = BoardPort(board)
+    chip = simulator.SSD1306(128, 64)
+    port.panel = chip.write
+    with Panel(SSD1306(128, 64), SerialTransport(port, clock=port.clock)) as panel:
+        checked(panel, port, chip)
+        board.panel(absent=True)
+        board.run(board.cycle + 3 * HZ // 2)
+        board.panel()
+        chip.power_cycle()
+        checked(panel, port, chip)
+        assert (panel.stats.restarts, panel.stats.retries) == (1, 1)
+
+
+def test_a_panel_that_misses_an_acknowledge_is_served_again_in_the_same_show(board: Board) -> None:
+    port = BoardPort(board)
+    chip = simulator.SSD1306(128, 64)
+    port.panel = chip.write
+    with Panel(SSD1306(128, 64), SerialTransport(port, clock=port.clock)) as panel:
+        checked(panel, port, chip)
+        board.panel(nack_after=3)
+        read = port.read
+
+        def well_again(size: int = 1) -> bytes:
+            came = read(size)
+            if panel.stats.retries:
+                board.panel()
+            return came
+
+        port.read = well_again  # type: ignore[method-assign]
+        checked(panel, port, chip)
+        assert panel.stats.faults == {"ENXIO": panel.stats.retries}
+
+
+@pytest.mark.parametrize("timeout", [0.5, 2.0])
+def test_the_timeout_bounds_a_show(timeout: float) -> None:
+    port = SimulatedPort()
+    chip = simulator.SSD1306(128, 64)
+    port.panel = chip.write
+    with Panel(SSD1306(128, 64), SerialTransport(port, timeout=timeout, clock=port.clock)) as panel:
+        checked(panel, port, chip)
+        port.mangle = lambda replies: b""
+        for error in (PanelTimeoutError, PanelNotFoundError, PanelNotFoundError):
+            start = port.now
+            with pytest.raises(error):
+                draw(panel, 1)
+            assert port.now - start < timeout + 0.1
+        port.mangle = lambda replies: replies
+        checked(panel, port, chip)
