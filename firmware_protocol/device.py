@@ -233,8 +233,8 @@ class Device:
                 return [self._greet(message)]
             case Poll(token):
                 return [self._status(token)]
-            case Read(token) if self._can & Feature.READ:
-                return [self._read(token)]
+            case Read(token) if self.read is not None:
+                return self._read(token, self.read)
         return []
 
     def _in_sequence(self, frame: Frame) -> list[Message]:
@@ -279,13 +279,15 @@ class Device:
     def _can(self) -> int:
         return self.profile.features & (~int(Feature.READ) if self.read is None else -1)
 
-    def _read(self, token: int) -> Message:
-        if not self._in_session or self.read is None:
-            return Boot(self.boot, self.cause)
+    def _read(self, token: int, read: Callable[[], int]) -> list[Message]:
+        if not self._in_session:
+            return [Boot(self.boot, self.cause)]
+        if not self._features & Feature.READ:
+            return []
         try:
-            return Byte(token, Fault.NONE, self.read())
+            return [Byte(token, Fault.NONE, read())]
         except OSError as error:
-            return Byte(token, _fault_of(error))
+            return [Byte(token, _fault_of(error))]
 
     def _status(self, token: int) -> Message:
         if not self._in_session:

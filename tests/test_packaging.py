@@ -109,7 +109,8 @@ def test_compiled_and_interpreted_installs_draw_the_same(without_compiler):
 def test_the_wheel_holds_the_packages_and_nothing_else(wheel):
     names = wheel.namelist()
     assert {name.partition("/")[0] for name in names} == {"paneldraw", "firmware_protocol", INFO}
-    assert {Path(name).suffix for name in names if ".dist-info/" not in name} <= {".py", ".pxd", ".typed", ".md", ".txt"}
+    kinds = {Path(name).suffix for name in names if ".dist-info/" not in name}
+    assert kinds <= {".py", ".pxd", ".typed", ".md", ".txt"}
     expected = {
         str(file.relative_to(PROJECT))
         for package in ("paneldraw", "firmware_protocol")

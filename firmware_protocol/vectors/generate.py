@@ -101,8 +101,9 @@ def exchanges() -> dict[str, list[Step]]:
             b"\0" + encode(Hello(5, features=0xFFFC)), encode_frame(Kind.HELLO, 0, bytes((6, 0, 0, 0, 1, 1, 0, 0, 9))),
         ],
         "a byte read from the panel": [
-            encode(Read(1)), hello, "! reads 43", encode(Read(2)), picture(0, *pixel) + encode(Read(3)), "! gone",
-            encode(Read(4)), "! back", "! reads 0", encode(Read(5)), encode(Poll(6)),
+            encode(Read(1)), hello, encode(Read(1)), b"\0" + encode(Hello(8, features=Feature.READ)), "! reads 43",
+            encode(Read(2)), picture(0, *pixel) + encode(Read(3)), "! gone", encode(Read(4)), "! back", "! reads 0",
+            encode(Read(5)), encode(Poll(6)),
         ],
         "a session begun anew": [
             hello, picture(0, *pixel), picture(1, *pixel), hello, picture(1, *pixel), picture(0, *pixel),

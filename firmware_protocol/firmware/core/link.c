@@ -393,9 +393,9 @@ static void take_frame(void)
         return;
     else if (!link.version)
         link.owed |= OWE_BOOT;
-    else if (kind < WRITE)
+    else if (kind == POLL || (kind == READ && link.features & READS))
         queue(kind, seq);
-    else
+    else if (kind != READ)
         take_sequenced(kind, seq);
 }
 
