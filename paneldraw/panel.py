@@ -17,7 +17,7 @@ import numpy as np
 import numpy.typing as npt
 
 from paneldraw import urls
-from paneldraw.controllers import BUSES, CHIPS, Controller
+from paneldraw.controllers import BUSES, CHIPS, Controller, features
 from paneldraw.controllers.packing import packer
 from paneldraw.errors import PanelError, PanelTimeoutError, TransportError, did_you_mean
 from paneldraw.framebuffer import Framebuffer, pictures
@@ -215,6 +215,11 @@ class Panel:
         self._contrast = None if contrast is None else _checked_contrast(controller, contrast)
         self._drive: tuple[bytes, ...] = ()
         self._kept: list[bytes] = []
+        self._effect, self._effect_lights = b"", False
+        self._stirred = self._scrolling = False  # whether the chip moved its RAM, and whether it still does
+        self._unsure: npt.NDArray[np.bool_] | None = None  # bytes of RAM that single steps of a scroll brought in
+        self._settled = 0.0  # when such a step is over
+        self._all_on = False
         self._inverted = False
         self._asleep = False
         self._ready = False  # the chip took its init, and nothing went wrong since
@@ -454,6 +459,108 @@ class Panel:
         """Show lit pixels dark and dark ones lit, or with False as they are."""
         self._change(lambda: self._inversion(bool(inverted)))
 
+    def all_on(self, on: bool = True) -> None:
+        """Light every pixel, whatever the picture is, or with False show the picture again.
+
+        Raises
+        ------
+        ValueError
+            The chip has no command for it; the message names those that have.
+        """
+        if not self.controller.all_on:
+            raise features.lacking(self.controller, "light every pixel by itself", lambda chip: chip.all_on)
+        self._all_on = bool(on)
+        self._change(lambda: (*(() if on else self.controller.follow), *self._mode()))
+
+    def blink(self, speed: float | None = 1.0) -> None:
+        """Let the chip blink by itself: fade to dark and back, or go off and on.
+
+        Parameters
+        ----------
+        speed : float or None, optional
+            From 0, the chip's slowest, to 1 (default), its fastest; the nearest that it has is taken. None ends it.
+
+        Raises
+        ------
+        ValueError
+            `speed` is out of range, or the chip cannot; the message names those that can.
+
+        Examples
+        --------
+        >>> panel = open_panel("sim://ssd1306")
+        >>> panel.blink()
+        Traceback (most recent call last):
+        ...
+        ValueError: the SSD1306 cannot blink by itself; SSD1315, SSD1316, HT16K33 can
+        """
+        self._affect("blink", speed)
+
+    def fade(self, speed: float | None = 1.0) -> None:
+        """Let the chip fade by itself until it is dark. It stays so until ``fade(None)``.
+
+        Parameters and errors are those of `blink`, which ends fading, and the other way round.
+        """
+        self._affect("fade", speed)
+
+    def scroll(
+        self,
+        dx: int = -1,
+        dy: int = 0,
+        *,
+        frames: float = 5,
+        rows: tuple[int, int] | None = None,
+        columns: tuple[int, int] | None = None,
+        once: bool = False,
+    ) -> None:
+        """Let the chip move the picture by itself, round and round, until `stop_scroll` or the next picture.
+
+        Parameters
+        ----------
+        dx, dy : int, optional
+            By how many columns and rows a step moves it, as `Framebuffer.scroll` has them. Default: -1 and 0, to the
+            left. Chips move by one column, and many only by rows and a column together.
+        frames : float, optional
+            How many of the panel's frames, of about 10 ms each, are from step to step; the nearest interval that the
+            chip has is taken. Default: 5.
+        rows, columns : (int, int), optional
+            The first one that moves and the one behind the last. Default: all. Rows that move across are whole pages
+            of eight on chips of one bit a pixel; some chips have no choice of columns.
+        once : bool, optional
+            Make one step of one column only, on chips that can: the next call waits two frames for it. What comes in at
+            the edge is not to be relied on until the next `show`, which sends just what differs. Default: False.
+
+        Raises
+        ------
+        ValueError
+            The chip cannot do it, and which ones can; or rows, columns and steps that cannot be.
+
+        Notes
+        -----
+        The chip moves its RAM, and takes no picture meanwhile: `show` ends the scroll and sends its picture whole, and
+        so does recovery after a fault. Across the glass an SSD1306 or SSD1305 moves all columns of its RAM; those
+        beside a narrower glass are blank.
+
+        Examples
+        --------
+        >>> panel = open_panel("sim://ssd1306")
+        >>> with panel.frame() as fb:
+        ...     fb.text("news", 0, 0)
+        >>> panel.scroll(frames=2, rows=(0, 8))
+        """
+        box = self._box(rows, columns)
+        across, down = {0: (dx, dy), 90: (-dy, dx), 180: (-dx, -dy), 270: (dy, -dx)}[self._rotate]
+        if once:
+            commands = features.scroll_once(self.controller, across, down, box)
+        else:
+            commands = features.scroll(self.controller, across, down, frames, box)
+        self._change(lambda: self._set_in_motion(commands, across, box, once))
+
+    def stop_scroll(self) -> None:
+        """End a scroll; the picture stays where it is until the next `show`, which sends it whole."""
+        if self.controller.scroll is None:
+            raise features.lacking(self.controller, "scroll by itself", lambda chip: chip.scroll)
+        self._change(lambda: (self._still(),) if self._scrolling else ())
+
     def sleep(self) -> None:
         """Turn the panel dark. It keeps its picture, takes new ones, and needs next to no power."""
         self._asleep = True
@@ -685,11 +792,13 @@ class Panel:
     def _start(self) -> Sent:
         """Bring the chip from any state to a dark, configured one."""
         chip = self.controller
+        mode = self._mode() if self._inverted or self._all_on else ()
+        effect = [self._effect] if self._effect and not self._effect_lights else []
+        commands = [*chip.init, *mode, *self._brightness(), *effect, *self._kept]
         if self._started:
             self.stats.restarts += 1
-        self._lit = self._watched = False
-        inverse = [chip.inverse] if self._inverted and chip.inverse else []
-        commands = [*chip.init, *inverse, *self._brightness(), *self._kept]
+        self._lit = self._watched = self._stirred = self._scrolling = False
+        self._unsure, self._settled = None, 0.0
         self.transport.reset()
         sent = self._command(*([chip.resync] if chip.resync else ()), *commands)
         self._planner.restart()
@@ -705,10 +814,12 @@ class Panel:
             wire, messages = self._start()
         if isinstance(self._planner, RegisterPlanner):
             self._planner.adjust(self._inverted, self._contrast)
+        if self._stirred:
+            wire, messages = self._calm()
         plan, sent = self._bring()
         wire += sent
         if not (self._lit or self._asleep):
-            power_on = self._command(self.controller.power_on)
+            power_on = self._command(*self._light())
             wire, messages = wire + power_on.wire_bytes, messages + power_on.messages
             self._lit = True
             self._watched = self._watched and self._status() == 0
@@ -778,8 +889,7 @@ class Panel:
         """Note which levels are lit; return the command for it, or send the picture turned over."""
         chip, before, self._inverted = self.controller, self._inverted, inverted
         if chip.inverse is not None:
-            command = chip.inverse if inverted else chip.normal
-            return (command,) if command else ()
+            return self._mode()
         if before != inverted:
             np.invert(self._planner.fresh, out=self._planner.fresh)
             if self._shown:
@@ -789,7 +899,87 @@ class Panel:
     def _power(self) -> tuple[bytes, ...]:
         """The command for light or none; there is no light before the first picture."""
         self._lit = self._shown and not self._asleep
-        return (self.controller.power_on if self._lit else self.controller.power_off,)
+        return self._light() if self._lit else (self.controller.power_off,)
+
+    def _light(self) -> tuple[bytes, ...]:
+        """The command for light, which may be that of an effect, and may have ended that every pixel is lit."""
+        power_on = self._effect if self._effect_lights else self.controller.power_on
+        return (power_on, self.controller.all_on) if self._all_on else (power_on,)
+
+    def _mode(self) -> tuple[bytes, ...]:
+        """Commands for what the picture looks like: as it is, inverted, or not at all, as every pixel is lit."""
+        shown = self.controller.inverse if self._inverted else self.controller.normal
+        return tuple(filter(None, (shown, self.controller.all_on if self._all_on else b"")))
+
+    # -- What the chip does by itself
+
+    def _affect(self, name: str, speed: float | None) -> None:
+        """Begin or end an effect; there is one at a time."""
+        effect = features.effect(self.controller, name)
+        command = effect.off if speed is None else effect.command(speed)
+        self._effect, self._effect_lights = (b"", False) if speed is None else (command, effect.lights)
+        self._change(lambda: (command,) if self._lit or not effect.lights else ())
+
+    def _box(self, rows: tuple[int, int] | None, columns: tuple[int, int] | None) -> features.Box:
+        """The part of the unturned glass that some rows and columns of the picture are."""
+        marked = np.zeros((self.height, self.width), np.uint8)
+        for name, chosen, size in (("rows", rows, self.height), ("columns", columns, self.width)):
+            if chosen is not None and not 0 <= chosen[0] < chosen[1] <= size:
+                raise ValueError(f"{name} must be a first one and the one behind the last, 0 to {size}, not {chosen}")
+        marked[slice(*rows) if rows else slice(None), slice(*columns) if columns else slice(None)] = 1
+        y, x = np.nonzero(self._upright(marked))
+        return features.Box(int(x[0]), int(y[0]), int(x[-1]) + 1, int(y[-1]) + 1)
+
+    def _set_in_motion(
+        self, commands: tuple[bytes, ...], across: int, box: features.Box, once: bool
+    ) -> tuple[bytes, ...]:
+        """Send what must come before a scroll; return its commands."""
+        self._wait_for_step()
+        if self._scrolling:
+            self._ready = self._shown  # a new scroll begins with the picture as it was
+            self._send() if self._shown else self._command(self._still())
+            self._ready = False
+        self._stirred = True
+        if not once:
+            for place, count in features.beside(self.controller):
+                self._command(place)
+                self._wire.data(bytes(count))
+            self._scrolling = True
+            return commands
+        self._step(across, box)
+        self._settled = time.perf_counter() + (self.controller.scroll.pause if self.controller.scroll else 0.0)
+        return commands
+
+    def _step(self, across: int, box: features.Box) -> None:
+        """Know that the chip moves a box by a column; of the column that comes in nothing is known."""
+        wide, high = self.controller.cell
+        part = (slice(box.top // high, -(-box.bottom // high)), slice(box.left // wide, box.right // wide))
+        if self._unsure is None:
+            self._unsure = np.zeros(self._planner.fresh.shape, np.bool_)
+        for held in (self._planner.shadow[part], self._unsure[part]):
+            held[...] = np.roll(held, across, axis=1)
+        self._unsure[part][:, 0 if across > 0 else -1] = True
+
+    def _wait_for_step(self) -> None:
+        """Wait until a single step is over."""
+        if self._settled:
+            time.sleep(max(0.0, self._settled - time.perf_counter()))
+            self._settled = 0.0
+
+    def _calm(self) -> Sent:
+        """Make sure that the RAM stays as it is, and that the next plan sends what of it is not known."""
+        self._wait_for_step()
+        if self._unsure is not None:
+            np.invert(self._planner.fresh, out=self._planner.shadow, where=self._unsure)
+            self._unsure = None
+        self._stirred = False
+        return self._command(self._still()) if self._scrolling else _NOTHING
+
+    def _still(self) -> bytes:
+        """Know that a scroll is over, which left the RAM moved; return the command that ends it."""
+        self._scrolling = False
+        self._planner.forget()
+        return self.controller.scroll.stop if self.controller.scroll else b""
 
     def _restore(self) -> None:
         if self._shown:

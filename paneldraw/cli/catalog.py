@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from paneldraw.controllers import BUSES, CHIPS
+from paneldraw.controllers.features import by_itself
 from paneldraw.errors import did_you_mean
 
 PARAMETERS = {
@@ -54,6 +55,8 @@ def describe(name: str) -> Iterator[str]:
     yield f"{chip.name}: {chip.about}"
     yield f"on {_buses(chip.buses)}, {2**chip.depth} levels"
     yield f"sizes: {', '.join(f'{width}x{height}' for width, height in chip.sizes)}"
+    if does := by_itself(chip()):
+        yield f"by itself: {', '.join(does)}"
     yield "parameters of the URL:"
     width = max(map(len, chip.parameters))
     for parameter in chip.parameters:

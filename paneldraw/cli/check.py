@@ -182,5 +182,3 @@ def ask(question: str) -> str:
     if not (line and sys.stdin.isatty()):
         print()
     return line.strip().lower()[:1] or "y"
-
-

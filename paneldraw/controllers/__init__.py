@@ -9,7 +9,16 @@ from paneldraw.controllers.gray import SH1122, SSD1322, SSD1325, SSD1327, SSD136
 from paneldraw.controllers.lcd import PCD8544, ST7565, ST7567, ST7920, UC1609, UC1701
 from paneldraw.controllers.led import HT16K33, IS31FL3731, MAX7219, Chain, Matrix
 from paneldraw.controllers.oled import CH1115, SH1106, SH1107, SSD1305, SSD1306, SSD1309, SSD1312, SSD1315, SSD1316
-from paneldraw.controllers.record import BUSES, Contrast, Controller, PagePointer, Registers, Window
+from paneldraw.controllers.record import (
+    BUSES,
+    Contrast,
+    Controller,
+    Effect,
+    PagePointer,
+    Registers,
+    Scroll,
+    Window,
+)
 
 __all__ = [
     "BUSES",
@@ -41,9 +50,11 @@ __all__ = [
     "Chip",
     "Contrast",
     "Controller",
+    "Effect",
     "Matrix",
     "PagePointer",
     "Registers",
+    "Scroll",
     "Window",
 ]
 

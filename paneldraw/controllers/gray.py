@@ -6,7 +6,7 @@ Sources are those of `paneldraw.controllers.oled`; where they disagree it says s
 from __future__ import annotations
 
 from paneldraw.controllers.chip import Chip, Module
-from paneldraw.controllers.record import Contrast, PagePointer, Window
+from paneldraw.controllers.record import Contrast, PagePointer, Scroll, Window
 
 
 def _window(m: Module) -> Window:
@@ -27,12 +27,18 @@ SSD1327 = Chip(
     remap=(0x51, 0x03, 0x10),  # split COM lines, reversed, columns from the right
     init=lambda m: (
         f"FD 12, AE, A8 {m.multiplex}, A1 00, A2 {m.offset}, A0 {m.remap:02X}, AB 01, 81 53, B1 51, "
-        "B3 01, B9, BC 08, BE 07, B6 01, D5 62, A4"
+        "B3 01, B9, BC 08, BE 07, B6 01, D5 62, 2E, A4"
     ),
     overrides=("first_com",),
     window=_window,
     drive=lambda m: ("B1 51, BC 08, BE 07", "B1 51, BC 00, BE 00", "B1 21, BC 00, BE 00", "B1 11, BC 00, BE 00"),
-    facts={"packing": "nibbles", "resync": b"\xb2" * 15, "normal": b"\xa4"},
+    facts={
+        "packing": "nibbles",
+        "resync": b"\xb2" * 15,
+        "normal": b"\xa4",
+        "all_on": b"\xa5",
+        "scroll": Scroll(across="26 00 {first} {speed} {last} {left} {right} 00", frames=(6, 32, 64, 256, 3, 4, 5, 2)),
+    },
 )
 
 SSD1325 = Chip(
@@ -53,7 +59,7 @@ SSD1325 = Chip(
     window=_window,
     contrast=Contrast(highest=0x7F),
     drive=lambda m: ("B1 55, BC 10, BE 1C, 86", "B1 55, BC 00, BE 00, 86", "B1 11, BC 00, BE 00, 84"),
-    facts={"packing": "nibbles", "resync": b"\xe3" * 8, "normal": b"\xa4"},
+    facts={"packing": "nibbles", "resync": b"\xe3" * 8, "normal": b"\xa4", "all_on": b"\xa5"},
 )
 
 
@@ -77,7 +83,7 @@ SSD1362 = Chip(
     overrides=("first_com", "internal_reference"),
     window=_window,
     drive=lambda m: ("B1 22, BC 04, BE 05", "B1 22, BC 00, BE 00", "B1 11, BC 00, BE 00"),
-    facts={"packing": "nibbles", "resync": b"\xe3" * 15, "normal": b"\xa4"},
+    facts={"packing": "nibbles", "resync": b"\xe3" * 15, "normal": b"\xa4", "all_on": b"\xa5"},
 )
 
 SSD1322 = Chip(
@@ -115,7 +121,12 @@ SSD1322 = Chip(
     buses=("spi",),
     contrast=Contrast(command=b"\xc1"),
     drive=lambda m: ("B1 E2, BB 1F, BE 07", "B1 E2, BB 00, BE 00", "B1 32, BB 00, BE 00"),
-    facts={"packing": "nibbles", "arguments_are_data": True, "resync": b""},  # D/C low always begins a command
+    facts={
+        "packing": "nibbles",
+        "arguments_are_data": True,
+        "resync": b"",  # D/C low always begins a command
+        "all_on": b"\xa5",
+    },
 )
 
 
@@ -140,5 +151,5 @@ SH1122 = Chip(
     overrides=("first_com", "charge_pump"),
     pointer=PagePointer(row_argument=True),
     drive=lambda m: ("D9 22, DB 35, DC 35", "D9 22, DB 00, DC 00", "D9 11, DB 00, DC 00"),
-    facts={"packing": "nibbles"},
+    facts={"packing": "nibbles", "all_on": b"\xa5", "follow": (b"\xa4",)},
 )

@@ -37,7 +37,14 @@ def _paged(m: Module, power: str = "2C, 50 ms, 2E, 50 ms, 2F, 50 ms", more: str 
     )
 
 
-_PAGED: Mapping[str, Any] = {"resync": b"\x00", "power_on": b"\xa4\xaf", "power_off": b"\xae\xa5", "status_off": 0}
+_ALL_ON: Mapping[str, Any] = {"all_on": b"\xa5", "follow": (b"\xa4",)}
+_PAGED: Mapping[str, Any] = {
+    "resync": b"\x00",
+    "power_on": b"\xa4\xaf",
+    "power_off": b"\xae\xa5",
+    "status_off": 0,
+    **_ALL_ON,
+}
 _OVERRIDES = ("first_com", "duty", "bias", "resistor_ratio")
 
 PCD8544 = Chip(
@@ -137,7 +144,7 @@ UC1609 = Chip(
     choices={"bias": (9, 8, 7, 6)},
     pointer=PagePointer(),
     buses=("spi", "i2c-pair"),
-    facts={"resync": b"\x00", "status_off": 0},
+    facts={"resync": b"\x00", "status_off": 0, **_ALL_ON},
 )
 
 # Serial: no D/C pin, a chip select that is high; the pictures of its 32 rows of RAM are 64 rows of 128 pixels. U8g2

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from typing import Final
 
 from paneldraw.controllers.chip import Size, listed
-from paneldraw.controllers.record import Contrast, Controller, Registers, commands
+from paneldraw.controllers.record import Contrast, Controller, Effect, Registers, commands
 
 Block = tuple[int, int]
 """A module of a wall: its column and its row."""
@@ -52,6 +52,8 @@ class Chain:
     power_on: bytes
     power_off: bytes
     contrast: Contrast
+    all_on: bytes = b""
+    follow: tuple[bytes, ...] = ()
     sizes: tuple[Size, ...] = ((32, 8), (8, 8), (64, 8), (128, 8), (32, 16), (64, 16), (32, 32), (64, 64))
 
     buses = ("spi",)
@@ -141,6 +143,8 @@ class Chain:
             inverse=b"",
             status_off=0,
             contrast=self.contrast,
+            all_on=self.all_on,
+            follow=self.follow,
             buses=self.buses,
         )
 
@@ -216,6 +220,8 @@ MAX7219 = Chain(
     power_on=b"\x0c\x01",
     power_off=b"\x0c\x00",
     contrast=Contrast(command=b"\x0a", highest=15),
+    all_on=b"\x0f\x01",  # the display test, in full brightness
+    follow=(b"\x0f\x00",),
 )
 
 
@@ -254,6 +260,7 @@ class Matrix:
     ram_bytes: int
     first: int
     command_bytes: int
+    blink: Effect | None = None
 
     buses = ("i2c",)
 
@@ -327,6 +334,7 @@ class Matrix:
             inverse=b"",
             status_off=0,
             contrast=self.contrast,
+            blink=self.blink,
             buses=self.buses,
         )
 
@@ -363,6 +371,7 @@ HT16K33 = Matrix(
     ram_bytes=16,
     first=0x00,
     command_bytes=1,
+    blink=Effect(speeds=(b"\x87", b"\x85", b"\x83"), off=b"\x81", lights=True),  # 0.5, 1 and 2 Hz
 )
 
 _LED_ON: Final = ", ".join(f"{register:02X} FF" for register in range(0x12))

@@ -10,11 +10,50 @@ from __future__ import annotations
 from typing import Any, Final
 
 from paneldraw.controllers.chip import Chip, Module
-from paneldraw.controllers.record import PagePointer, Window
+from paneldraw.controllers.record import Effect, PagePointer, Scroll, Window
 
 #: The two ways of the SSD130x: pages, or windows filled across and down.
 _PAGES = PagePointer(mode=b"\x20\x02", wraps=True)
 _WIRING: Final = ("first_com", "com_pins")
+_ALL_ON: Final = {"all_on": b"\xa5", "follow": (b"\xa4",)}
+_AREA: Final = "A3 {top} {height}"
+
+#: The scrolls of the SSD1306 and SSD1305, and those of the SSD1309 and of the SSD1315 and SSD1316, which have columns.
+_SCROLL = Scroll(
+    across="26 00 {first} {speed} {last} 00 FF",
+    diagonal="29 00 {first} {speed} {last} {rows}",
+    area=_AREA,
+    frames=(5, 64, 128, 256, 3, 4, 25, 2),
+)
+_SCROLL_1305 = Scroll(
+    across="26 01 {first} {speed} {last}",
+    diagonal="29 {columns} {first} {speed} {last} {rows}",
+    area=_AREA,
+    frames=(6, 32, 64, 128),  # as Microchip's graphics library has them; codes 4 to 7 are not known for sure
+)
+_SCROLL_1309 = Scroll(
+    across="26 00 {first} {speed} {last} 00 {left} {right}",
+    diagonal="29 {columns} {first} {speed} {last} {rows} {left} {right}",
+    area=_AREA,
+    once="2C 00 {first} 01 {last} 00 {left} {right}",
+    frames=(5, 64, 128, 256, 2, 3, 4, 1),
+)
+_SCROLL_1315 = Scroll(
+    across="26 00 {first} {speed} {last} {left} {right}",
+    diagonal="29 {columns} {first} {speed} {last} {rows} {left} {right}",
+    area=_AREA,
+    once="2C 00 {first} 01 {last} {left} {right}",
+    frames=(6, 32, 64, 128, 3, 4, 5, 2),
+)
+
+
+def _effect(mode: int) -> Effect:
+    """Fading (20) or blinking (30) by steps of 128 frames down to 8."""
+    return Effect(speeds=tuple(bytes((0x23, mode + step)) for step in range(15, -1, -1)), off=b"\x23\x00")
+
+
+_LATER: Final[dict[str, Any]] = {**_ALL_ON, "scroll": _SCROLL_1315, "fade": _effect(0x20), "blink": _effect(0x30)}
+"""What the SSD1315 and SSD1316 do by themselves."""
 
 
 def _windows(module: Module) -> Window:
@@ -60,6 +99,7 @@ SSD1306 = Chip(
         (48, 64): {"column_offset": 40},
     },
     **_PUMPED,
+    facts={**_ALL_ON, "scroll": _SCROLL},
 )
 
 SSD1315 = Chip(
@@ -69,6 +109,7 @@ SSD1315 = Chip(
     # U8g2 sends AD 10 always, Zephyr where it is asked to, and luma.oled, as here, drives it as an SSD1306.
     modules=SSD1306.modules,
     **_PUMPED,
+    facts=_LATER,
 )
 
 SSD1312 = Chip(
@@ -84,6 +125,7 @@ SSD1312 = Chip(
     },
     upright=(0xA1, 0xC0),
     **_PUMPED,
+    facts=_ALL_ON,
 )
 
 SSD1316 = Chip(
@@ -94,6 +136,7 @@ SSD1316 = Chip(
     # As in U8g2; luma.oled drives it as an SSD1306, with C8, COM pins 02 and 8D 14.
     upright=(0xA1, 0xC0),
     **{**_PUMPED, "init": lambda m: _pumped(m, "15")},
+    facts=_LATER,
 )
 
 SSD1309 = Chip(
@@ -110,6 +153,7 @@ SSD1309 = Chip(
     pointer=_PAGES,
     window=_windows,
     drive=lambda m: ("D9 D3, DB 34", "D9 D3, DB 00", "D9 22, DB 00", "D9 11, DB 00"),
+    facts={**_ALL_ON, "scroll": _SCROLL_1309},
 )
 
 SSD1305 = Chip(
@@ -127,6 +171,7 @@ SSD1305 = Chip(
     pointer=_PAGES,
     window=_windows,
     drive=lambda m: ("D9 F1, DB 34", "D9 F1, DB 00", "D9 22, DB 00", "D9 11, DB 00"),
+    facts={**_ALL_ON, "scroll": _SCROLL_1305},
 )
 
 SH1106 = Chip(
@@ -147,6 +192,7 @@ SH1106 = Chip(
     overrides=(*_WIRING, "charge_pump"),
     pointer=PagePointer(),
     drive=lambda m: ("D9 22, DB 35", "D9 22, DB 00", "D9 11, DB 00"),
+    facts=_ALL_ON,
 )
 
 SH1107 = Chip(
@@ -163,6 +209,7 @@ SH1107 = Chip(
     ),
     pointer=PagePointer(wraps=True),
     drive=lambda m: ("D9 22, DB 35", "D9 22, DB 00", "D9 11, DB 00"),
+    facts=_ALL_ON,
 )
 
 CH1115 = Chip(
@@ -179,4 +226,5 @@ CH1115 = Chip(
     overrides=("first_com", "charge_pump"),
     pointer=PagePointer(),
     drive=lambda m: ("D9 22, DB 20", "D9 22, DB 00", "D9 11, DB 00"),
+    facts=_ALL_ON,
 )

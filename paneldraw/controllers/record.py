@@ -183,6 +183,84 @@ class Contrast:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class Scroll:
+    """How a chip moves its picture by itself.
+
+    A way is a command in hex, to the right; its first byte is one less than that to the left. In braces are the names
+    of what is filled in: ``first`` and ``last``, the pages or rows that move; ``left`` and ``right``, the columns;
+    ``speed``, the place of the interval in `frames`; ``columns``, whether columns move at all; and ``rows``, by how
+    many rows the ``height`` rows below the ``top`` ones move up.
+
+    Attributes
+    ----------
+    across : str
+        To move by a column, again and again.
+    diagonal : str
+        To move by a column and some rows. Default: the chip cannot.
+    area : str
+        The command for the rows that the diagonal moves. Default: none.
+    once : str
+        To move by one column, once. Default: the chip cannot.
+    frames : tuple of int
+        The intervals, in frames of the panel, by the code for them.
+    start, stop : bytes
+        Commands that begin and end what was set up. Default: ``2F`` and ``2E``.
+    pause : float
+        Seconds that a single move takes. Default: 0.025, two frames of a slow clock.
+
+    Examples
+    --------
+    >>> scroll = Scroll(across="26 00 {first} {speed} {last} 00 FF", frames=(5, 64))
+    >>> scroll.command(scroll.across, True, first=0, last=7, speed=1).hex(" ")
+    '27 00 00 01 07 00 ff'
+    """
+
+    across: str
+    frames: tuple[int, ...]
+    diagonal: str = ""
+    area: str = ""
+    once: str = ""
+    start: bytes = b"\x2f"
+    stop: bytes = b"\x2e"
+    pause: float = 0.025
+
+    def command(self, way: str, to_left: bool = False, /, **numbers: int) -> bytes:
+        """Fill in a way's numbers."""
+        right, *arguments = bytes.fromhex(way.format(**{name: f"{number:02X}" for name, number in numbers.items()}))
+        return bytes((right + to_left, *arguments))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Effect:
+    """What a chip does with its light by itself.
+
+    Attributes
+    ----------
+    speeds : tuple of bytes
+        Commands that begin it, from the slowest to the fastest.
+    off : bytes
+        Command that ends it.
+    lights : bool
+        Whether these commands turn the panel on, too, as `Controller.power_on` does. Default: False.
+
+    Examples
+    --------
+    >>> Effect(speeds=(b"\\x87", b"\\x85", b"\\x83"), off=b"\\x81", lights=True).command(1.0)
+    b'\\x83'
+    """
+
+    speeds: tuple[bytes, ...]
+    off: bytes
+    lights: bool = False
+
+    def command(self, speed: float) -> bytes:
+        """Return the command for a speed from 0, the slowest, to 1; the nearest there is."""
+        if not 0 <= speed <= 1:
+            raise ValueError(f"speed must be 0 to 1, not {speed!r}")
+        return self.speeds[round(speed * (len(self.speeds) - 1))]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Controller:
     """A panel chip with the glass that is bonded to it. Make one with a chip's own function, such as ``SSD1306``.
 
@@ -232,6 +310,14 @@ class Controller:
         How it is told the brightness; None where it has none. Default: ``81`` and a byte.
     drive : tuple of tuple of bytes
         Commands for precharge and COM voltage, as init has them and then for steps ever darker. Default: none.
+    scroll : Scroll, optional
+        How it scrolls by itself. Default: it does not.
+    blink, fade : Effect, optional
+        How it blinks, and fades until it is dark, by itself. Default: it does not.
+    all_on : bytes
+        Command that lights every pixel, whatever the RAM holds. Default: none.
+    follow : tuple of bytes
+        Commands that end this, before `normal` or `inverse`. Default: none.
     status_off : int
         Bit of the byte read from it on I2C that says that the display is off; 0 if that cannot be read. Default: bit 6.
     buses : tuple of str
@@ -267,6 +353,11 @@ class Controller:
     inverse: bytes | None = b"\xa7"
     contrast: Contrast | None = Contrast()
     drive: tuple[tuple[bytes, ...], ...] = ()
+    scroll: Scroll | None = None
+    blink: Effect | None = None
+    fade: Effect | None = None
+    all_on: bytes = b""
+    follow: tuple[bytes, ...] = ()
     status_off: int = 0x40
     buses: tuple[str, ...] = ("i2c", "spi")
     synced: bool = False

@@ -13,7 +13,7 @@ from .chip import Chip
 from .commands import UNKNOWN, Command, Commands
 from .frames import Picture
 from .glass import Glass, Module, com_signals
-from .scroll import FRAMES
+from .scroll import Scroll
 
 _PULSE = 50
 """Clocks that a line is lit."""
@@ -215,8 +215,8 @@ class DisplayChip(Chip):
 
     @property
     def pages(self) -> Bytes:
-        """The RAM as pages of bytes, column 0 first; what is written to it is in the RAM."""
-        return self._ram[:, :: -1 if self.remaps_ram and self.segment_remap else 1, 0]
+        """The RAM as pages of bytes, or rows of cells, column 0 first; what is written to it is in the RAM."""
+        return self._addressed[:, :, 0] if self.packing.rows == 8 else self._addressed
 
     @property
     def frame_seconds(self) -> float:
@@ -235,7 +235,8 @@ class DisplayChip(Chip):
     def _step_seconds(self) -> float:
         if "scroll" not in self._has or not self.registers.scrolling or not self.registers.scroll.opcode:
             return 0
-        return FRAMES[self.registers.scroll.interval] * self.frame_seconds
+        scroll: Scroll = self.registers.scroll
+        return scroll.frames[scroll.interval] * self.frame_seconds
 
     def _step(self, count: int) -> None:
         self.registers.scroll.move(self.pages, count)

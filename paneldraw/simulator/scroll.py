@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from .commands import Command, Commands
 
 FRAMES = (5, 64, 128, 256, 3, 4, 25, 2)
-"""Frames from step to step, by the code that sets them."""
+"""Frames from step to step, by the code that sets them, of the SSD1306."""
 _LEFT = (0x27, 0x2A, 0x2D)
 
 
@@ -34,6 +34,7 @@ class Scroll:
     across: bool = True
     top_rows: int = 0
     scroll_rows: int = 64
+    frames: tuple[int, ...] = FRAMES
 
     def move(self, ram: NDArray[np.uint8], steps: int = 1) -> None:
         """Move pages of bytes, whose column 0 is the first, on by some steps."""
@@ -47,7 +48,7 @@ class Scroll:
             ram[...] = np.packbits(rows, axis=0, bitorder="little")
 
 
-def _set_up(chip: Any, sent: bytes, layout: str) -> Scroll:
+def _set_up(chip: Any, sent: bytes, layout: str, frames: tuple[int, ...] = FRAMES) -> Scroll:
     """A scroll after the arguments of a command, whose places `layout` names; its rules are spoken."""
     given = dict(zip(layout.split(), sent[1:], strict=True))
     old = chip.registers.scroll
@@ -57,11 +58,12 @@ def _set_up(chip: Any, sent: bytes, layout: str) -> Scroll:
         given["P"] & 7,
         given.get("i", 0) & 7,
         given.get("v", 0) & 0x3F,
-        given.get("c", 0) & 0x7F,
-        given.get("C", 0x7F) & 0x7F,
+        given.get("c", 0),
+        given.get("C", chip.columns - 1),
         bool(given.get("h", 1)),
         old.top_rows,
         old.scroll_rows,
+        frames,
     )
     if chip.registers.scrolling:
         chip.complain("a scroll is set up only while none is running; send 2E first", sent)
@@ -98,25 +100,32 @@ def _stop(chip: Any, sent: bytes) -> None:
     chip.registers.scrolling = False
 
 
-def scroll(across: str, diagonal: str, once: str = "") -> Commands:
+def scroll(across: str, diagonal: str, once: str = "", frames: tuple[int, ...] = FRAMES) -> Commands:
     """The commands of a scroll: 26 and 27, 29 and 2A, 2C and 2D where there is one column at a time; A3, 2E, 2F.
 
     Parameters
     ----------
     across, diagonal, once : str
         What each argument is, in order: p and P the first and last page, c and C the first and last column, i the
-        interval, v the rows a step, h whether columns move too; 0, 00 and FF are that; - is any.
+        interval, v the rows a step, h whether columns move too, b whether what comes in is blank, which the sheets have
+        as a dummy of 01 and owners of modules saw; 0, 00 and FF are that; - is any.
+    frames : tuple of int
+        The intervals, by their codes. Default: those of the SSD1306.
     """
     state = {"scroll": Scroll(), "scrolling": False}
 
     def command(layout: str) -> Command:
         def act(chip: Any, sent: bytes) -> None:
-            chip.registers.scroll = _set_up(chip, sent, layout)
+            chip.registers.scroll = _set_up(chip, sent, layout, frames)
 
         return Command(len(layout.split()), act, state)
 
     def one(chip: Any, sent: bytes) -> None:
-        _set_up(chip, sent, once).move(chip.pages)
+        step = _set_up(chip, sent, once)
+        step.move(chip.pages)
+        if sent[1 + once.split().index("b")]:
+            edge = step.column_end if sent[0] in _LEFT else step.column_start
+            chip.pages[step.page_start : step.page_end + 1, edge] = 0
 
     return {
         **dict.fromkeys((0x26, 0x27), command(across)),

@@ -168,7 +168,7 @@ class SSD1309(SSD1306):
     supply, identity = ("on", 1), 0x00
     commands: ClassVar = {
         **SSD1306.commands,
-        **scroll("0 p i P - c C", "h p i P v c C", once="0 p - P - c C"),
+        **scroll("0 p i P - c C", "h p i P v c C", once="0 p b P - c C", frames=(5, 64, 128, 256, 2, 3, 4, 1)),
         0x8D: RELATIVES[0x8D],
         0xDB: setting("vcomh", 0x34, (0x00, 0x34, 0x3C), "the VCOMH level is 00, 34 or 3C", harmless=True),
         0xDC: setting("gpio", 0x02, range(4), "the GPIO takes 00 to 03", harmless=True),
@@ -191,7 +191,7 @@ class SSD1315(SSD1306):
 
     commands: ClassVar = {
         **SSD1306.commands,
-        **scroll("0 p i P c C", "h p i P v c C", once="0 p - P c C"),
+        **scroll("0 p i P c C", "h p i P v c C", once="0 p b P c C", frames=(6, 32, 64, 128, 3, 4, 5, 2)),
         0x23: setting("fade", 0x00, [n for n in range(64) if n >> 4 != 1], "fading takes 00, 20 to 2F or 30 to 3F"),
         0xAD: setting(
             "reference", 0x00, (0x00, 0x10, 0x20, 0x30), "the reference takes 00, 10, 20 or 30", harmless=True
@@ -270,7 +270,7 @@ class SSD1305(SSD1306):
     supply, supply_command, identity = ("on", 1), "", 0x00
     commands: ClassVar = {
         **SSD1306.commands,
-        **scroll("h p i P", "h p i P v"),
+        **scroll("h p i P", "h p i P v", frames=(6, 32, 64, 128, 3, 4, 5, 2)),
         **windows(132, 8, 0x21, 0x22, "page", not_in_page_mode=True),
         0x82: setting("area_brightness", 0x80),
         0x8D: RELATIVES[0x8D],

@@ -9,9 +9,11 @@ from .addressing import ACROSS, DOWN, NIBBLES, windows
 from .commands import DISPLAY, LOCK, Command, Commands, choice, nothing, relative, setting
 from .display_chip import DisplayChip
 from .glass import Module
+from .scroll import Scroll
 
 LINEAR = tuple(range(0, 30, 2))
 """Pulse widths of levels 1 to 15 after reset."""
+_OSCILLATOR, _STEP = 600_000, 20_000
 
 
 def _greys(chip: Any, sent: bytes) -> None:
@@ -68,6 +70,13 @@ class GreyChip(DisplayChip):
         return bool(self.registers.display == self.inverse)
 
     @property
+    def frame_seconds(self) -> float:
+        """How long the chip takes to show its RAM once, at about 600 kHz of its oscillator's code 0."""
+        r = self.registers
+        clocks = (r.phases & 0x0F) + (r.phases >> 4) + self.longest_pulse
+        return float(clocks * (r.multiplex + 1) * ((r.clock & 0x0F) + 1) / (_OSCILLATOR + _STEP * (r.clock >> 4)))
+
+    @property
     def mode(self) -> int:
         """Whether windows are filled across or down."""
         return DOWN if self.registers.remap & self.down_bit else ACROSS
@@ -80,14 +89,27 @@ class GreyChip(DisplayChip):
 
 
 def _scroll(chip: Any, sent: bytes) -> None:
+    """The SSD1327's, by rows and columns of two pixels."""
     if chip.registers.scrolling:
         chip.complain("a scroll is set up only while none is running; send 2E first", sent)
-    chip.registers.scroll = sent
+    opcode, first, top, interval, bottom, left, right, last = sent
+    if (first, last) != (0, 0) or interval > 7:
+        chip.complain("the first and last arguments of a scroll are 00, its interval is 00 to 07", sent)
+    if not (top <= bottom < chip.lines and left <= right < chip.columns):
+        chip.complain("a scroll's rows and columns are within the RAM, the end ones not before the start ones", sent)
+    frames = (6, 32, 64, 256, 3, 4, 5, 2)
+    chip.registers.scroll = Scroll(
+        opcode, top, bottom, interval & 7, column_start=left, column_end=right, frames=frames
+    )
+
+
+def _scroll_unseen(chip: Any, sent: bytes) -> None:
+    chip.registers.scroll = Scroll(sent[0], across=False)
 
 
 def _scroll_run(chip: Any, sent: bytes) -> None:
     chip.registers.scrolling = sent[0] == 0x2F
-    if chip.registers.scrolling and not chip.registers.scroll:
+    if chip.registers.scrolling and not chip.registers.scroll.opcode:
         chip.complain("a scroll is started and none was set up (26 or 27)", sent)
 
 
@@ -96,7 +118,8 @@ class SSD1327(GreyChip):
 
     Parameters, attributes and errors are those of `simulator.SSD1306`. Modules stand upright under A0 51, that of 96x64
     under A0 42.
-    What an eye sees is given in levels, whatever the grey table makes of them. Hardware scrolling is state only.
+    What an eye sees is given in levels, whatever the grey table makes of them. A scroll moves by a column address, two
+    pixels, a step; the sheet says "one column".
 
     Examples
     --------
@@ -119,7 +142,7 @@ class SSD1327(GreyChip):
     commands: ClassVar = {
         **GREY,
         **windows(64, 128, 0x15, 0x75),
-        **dict.fromkeys((0x26, 0x27), Command(7, _scroll, {"scroll": b"", "scrolling": False})),
+        **dict.fromkeys((0x26, 0x27), Command(7, _scroll, {"scroll": Scroll(), "scrolling": False})),
         **dict.fromkeys((0x2E, 0x2F), Command(0, _scroll_run)),
         **dict.fromkeys((0x84, 0x85, 0x86, 0xB2, 0xB4, 0xBB), nothing()),
         0x81: setting("contrast", 0x7F),
@@ -181,7 +204,7 @@ class SSD1325(GreyChip):
         0x23: setting("drawing", 0x00, range(32), "the drawing options are 00 to 1F", harmless=True),
         0x24: Command(5, _fill),
         0x25: nothing(6),
-        0x26: Command(4, _scroll, {"scroll": b"", "scrolling": False}),
+        0x26: Command(4, _scroll_unseen, {"scroll": Scroll(), "scrolling": False}),
         **dict.fromkeys((0x2E, 0x2F), Command(0, _scroll_run)),
         0x81: setting("contrast", 0x40, range(128), "the contrast is 00 to 7F", mask=0x7F, harmless=True),
         0xA0: setting(

@@ -7,7 +7,7 @@ cdef struct Registers:
 
 @cython.final
 cdef class Writer:
-    cdef object fresh, _shadow, plan
+    cdef object fresh, shadow, plan
     cdef unsigned char *new
     cdef unsigned char *old
     cdef bint known

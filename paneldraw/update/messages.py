@@ -71,13 +71,13 @@ class Writer:
     def _make_room_for(self, width):
         """Make the frames and a plan of a panel of this width."""
         self.fresh = np.zeros((self.height, self.width * self.cell_bytes), np.uint8)
-        self._shadow = np.zeros_like(self.fresh)
+        self.shadow = np.zeros_like(self.fresh)
         self.most_pieces = self.height * (self.width // 2 + 1) + 1
         payload = self.height * (width + 16) + 64
         messages = 8 * self.most_pieces + payload // max(self._longest, 1)
         self.plan = Plan(payload + messages, messages)
         self.new = cython.cast(cython.p_uchar, _memory(self.fresh.reshape(-1).data))
-        self.old = cython.cast(cython.p_uchar, _memory(self._shadow.reshape(-1).data))
+        self.old = cython.cast(cython.p_uchar, _memory(self.shadow.reshape(-1).data))
         self._out = cython.cast(cython.p_uchar, _memory(self.plan.buffer.data))
         self._starts = cython.cast(cython.p_Py_ssize_t, _memory(self.plan.starts))
         self._stops = cython.cast(cython.p_Py_ssize_t, _memory(self.plan.stops))

@@ -71,9 +71,12 @@ class Planner:
     ----------
     fresh : (rows, bytes a row) uint8 array
         The frame to bring onto the panel, packed: write into it, then call `plan`.
+    shadow : array like `fresh`
+        What the panel holds.
     """
 
     fresh = cython.declare(object, visibility="readonly")
+    shadow = cython.declare(object, visibility="readonly")
     _memory: object
     _plainly: cython.bint
     _whole: cython.bint
@@ -100,7 +103,7 @@ class Planner:
         self._writer = w = Writer(controller, cost._replace(chained=None) if self._plainly else cost)
         self._windows = Windows(w)
         self._order = Order()
-        self.fresh = w.fresh
+        self.fresh, self.shadow = w.fresh, w.shadow
         self._around = w.wraps and w.width == w.ram_width
         pieces = w.most_pieces
         if cython.compiled:

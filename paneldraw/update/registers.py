@@ -40,6 +40,8 @@ class RegisterPlanner:
     ----------
     fresh : uint8 array
         The frame to bring onto the panel, packed: write into it, then call `plan`.
+    shadow : array like `fresh`
+        What the panel holds.
 
     Examples
     --------
@@ -55,7 +57,7 @@ class RegisterPlanner:
         self._chip, self._registers, self._cost, self._whole = controller, registers, cost, whole
         self._longest = registers.size if cost.longest is None else cost.longest
         self.fresh: npt.NDArray[np.uint8] = np.zeros(registers.size, np.uint8)
-        self._shadow, self._new, self._mask, self._all_lit = (self.fresh.copy() for _ in range(4))
+        self.shadow, self._new, self._mask, self._all_lit = (self.fresh.copy() for _ in range(4))
         packer(controller)(np.ones((controller.height, controller.width), np.uint8), 1, self._all_lit)
         self._used = self._all_lit != 0
         self._level = 255
@@ -76,7 +78,7 @@ class RegisterPlanner:
         np.bitwise_xor(self.fresh, self._mask, out=self._new)
         if self._level != 255:
             self._new[:] = (self._new.astype(np.uint16) * self._level + 127) // 255
-        changed = self._used & (self._new != self._shadow) if self._known else self._used
+        changed = self._used & (self._new != self.shadow) if self._known else self._used
         plan = self._begin(self._plan)
         plan.changed = int(np.count_nonzero(changed))
         if plan.changed:
@@ -95,7 +97,7 @@ class RegisterPlanner:
 
     def sent(self) -> None:
         """Note that the plan arrived: the panel holds the fresh frame."""
-        self._shadow[:] = self._new
+        self.shadow[:] = self._new
         self._known = True
 
     def forget(self) -> None:

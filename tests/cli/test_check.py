@@ -84,6 +84,7 @@ def test_the_chips_are_listed_and_each_is_described(capsys):
         assert main(["panels", name]) == 0
         told = capsys.readouterr().out
         assert chip.name in told
+        assert ("by itself: scrolls" in told) == (chip().scroll is not None)
         for parameter in chip.parameters:
             line = next(line for line in told.splitlines() if line.startswith(f"  {parameter} "))
             assert line.split(maxsplit=1)[1], f"{parameter} needs a description"

@@ -64,6 +64,30 @@ def test_intervals(code: int, frames: int) -> None:
     assert len(chip.frames) == 3
 
 
+@pytest.mark.parametrize(
+    ("chip", "frames"),
+    [(simulator.SSD1309, (5, 64, 128, 256, 2, 3, 4, 1)), (simulator.SSD1315, (6, 32, 64, 128, 3, 4, 5, 2))],
+)
+def test_relatives_have_intervals_of_their_own(chip: type[simulator.SSD1306], frames: tuple[int, ...]) -> None:
+    columns = {simulator.SSD1309: "00 00 7F", simulator.SSD1315: "00 7F"}[chip]
+    for code, count in enumerate(frames):
+        made, bus = scrolling(f"26 00 00 {code:02X} 07 {columns} 2F", chip())
+        bus.idle(3.5 * count * made.frame_seconds)
+        assert len(made.frames) == 3, code
+
+
+def test_a_single_step_leaves_what_comes_in_blank_or_rolls_it_round() -> None:
+    for blank in (1, 0):
+        chip, bus = scrolling("2E", simulator.SSD1315())
+        bus.write_i2c_block_data(0x3C, 0x00, [0x2D, 0, 2, blank, 5, 8, 0x78])  # the sheet's example, and 00 for 01
+        expected = PICTURE.copy()
+        expected[16:48, 8:121] = np.roll(PICTURE[16:48, 8:121], -1, axis=1)
+        if blank:
+            expected[16:48, 120] = 0
+        assert np.array_equal(chip.pixels, expected)
+        assert chip.violations == []
+
+
 def test_diagonal_moves_rows_up_too_within_its_area() -> None:
     chip, bus = scrolling("29 00 00 07 07 03 2F")
     bus.idle(2.5 * 2 * FRAME)
@@ -123,14 +147,14 @@ def test_reset_and_power_loss_end_it() -> None:
 
 def test_the_ssd1309_has_windows_of_columns_and_one_step_at_a_time() -> None:
     chip = simulator.SSD1309()
-    _, bus = scrolling("26 00 01 07 02 00 10 1F 2F", chip)
+    _, bus = scrolling("26 00 01 04 02 00 10 1F 2F", chip)
     bus.idle(1.5 * 2 * chip.frame_seconds)
     expected = PICTURE.copy()
     expected[8:24, 16:32] = np.roll(expected[8:24, 16:32], 1, axis=1)
     assert np.array_equal(chip.pixels, expected)
     bus.write_i2c_block_data(0x3C, 0x00, [0x2E, 0x2D, 0, 1, 0, 2, 0, 0x10, 0x1F])
     assert np.array_equal(chip.pixels, PICTURE)
-    _, bus = scrolling("29 00 00 07 07 02 00 7F 2F", chip)
+    _, bus = scrolling("29 00 00 04 07 02 00 7F 2F", chip)
     bus.idle(1.5 * 2 * chip.frame_seconds)
     assert np.array_equal(chip.pixels, np.roll(PICTURE, -2, axis=0)), "without columns, as bit 0 of A is 0"
     assert chip.violations == []
