@@ -1,4 +1,4 @@
-"""Draws the pictures of the README and of all pages, and refreshes what algorithms.md has from the code.
+"""Draws the pictures of the README and of all pages, and refreshes what the pages have from the code.
 
 ``python docs/make_pictures.py``
 """
@@ -11,13 +11,15 @@ import re
 import subprocess
 import sys
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
+import chip_tables
 import figures
 import gallery
 import numpy as np
+import symptoms
 import worked_examples
 from PIL import Image
 
@@ -68,15 +70,24 @@ PICTURES: dict[str, Callable[[], Image.Image]] = {
     "hello.png": hello,
     **gallery.pictures(),
     **figures.pictures(),
+    **symptoms.pictures(),
+}
+
+#: Pages with excerpts or tables, and what makes the tables.
+PAGES: dict[str, Mapping[str, Any]] = {
+    "algorithms.md": vars(worked_examples),
+    "chips.md": vars(chip_tables),
+    "add_a_chip.md": {},
 }
 
 
 def main() -> None:
-    """Write every picture beside this script, and the page of worked examples anew."""
+    """Write every picture beside this script, and the pages with excerpts and tables anew."""
     for name, draw in PICTURES.items():
         draw().save(HERE / name, optimize=True)
-    page = worked_examples.PAGE
-    page.write_text(worked_examples.page(page.read_text(encoding="utf-8")), encoding="utf-8")
+    for name, tables in PAGES.items():
+        page = HERE / name
+        page.write_text(worked_examples.page(page.read_text(encoding="utf-8"), tables), encoding="utf-8")
 
 
 if __name__ == "__main__":

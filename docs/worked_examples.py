@@ -1,8 +1,8 @@
-"""The excerpts and tables of algorithms.md.
+"""The excerpts and tables of the pages, and what makes the tables of algorithms.md.
 
-An excerpt follows a link to its function; of the function it shows the lines from its own first line to its own last
-one. A table stands between ``<!-- NAME -->`` and ``<!-- end -->``, and the function NAME makes it, from the plain loops
-or from what a drawing call does.
+An excerpt follows a link to its function, class or value; of that it shows the lines from its own first line to its own
+last one. A table stands between ``<!-- NAME -->`` and ``<!-- end -->``, and a function NAME makes it, in algorithms.md
+from the plain loops or from what a drawing call does.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ import math
 import re
 import sys
 import textwrap
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from functools import cache
 from math import ceil
 from pathlib import Path
@@ -37,19 +37,21 @@ _EXCERPT = re.compile(
 _TABLE = re.compile(r"(?P<head>^<!-- (?P<name>(?!end)\w+) -->\n)(?s:.*?)(?=^<!-- end -->$)", re.M)
 
 
-def page(text: str) -> str:
-    """Return the page with its excerpts and tables as the code has them."""
+def page(text: str, tables: Mapping[str, Any] | None = None) -> str:
+    """Return a page with its excerpts and tables as the code has them; default: the tables of algorithms.md."""
+    made = globals() if tables is None else tables
     text = _EXCERPT.sub(lambda found: found["head"] + excerpt(found["file"], found["name"], found["code"]), text)
-    return _TABLE.sub(lambda found: found["head"] + globals()[found["name"]]() + "\n", text)
+    return _TABLE.sub(lambda found: found["head"] + made[found["name"]]() + "\n", text)
 
 
 def excerpt(file: str, name: str, shown: str) -> str:
-    """Return the lines of a function, or a class's method, from the first line of `shown` to its last one."""
+    """Return the lines of a function, method, class or value, from the first line of `shown` to its last one."""
     source = (PAGE.parent / file).read_text(encoding="utf-8")
     node: Any = ast.parse(source)
     for part in name.split("."):
-        defined = (child for child in ast.walk(node) if isinstance(child, (ast.FunctionDef, ast.ClassDef)))
-        node = next(child for child in defined if child.name == part and child is not node)
+        node = next((child for child in ast.walk(node) if child is not node and part in _names(child)), None)
+        if node is None:
+            raise ValueError(f"{file} defines no {name}; name something else on the page")
     lines = textwrap.dedent("\n".join(source.splitlines()[node.lineno - 1 : node.end_lineno])).splitlines()
     wanted = [line.strip() for line in shown.strip().splitlines()]
     stripped = [line.strip() for line in lines]
@@ -58,9 +60,16 @@ def excerpt(file: str, name: str, shown: str) -> str:
         end = stripped.index(wanted[-1], start)
     except ValueError:
         raise ValueError(
-            f"{name} in {file} has no lines from {wanted[0]!r} to {wanted[-1]!r}; name others in {PAGE.name}"
+            f"{name} in {file} has no lines from {wanted[0]!r} to {wanted[-1]!r}; name others on the page"
         ) from None
     return textwrap.dedent("\n".join(lines[start : end + 1])) + "\n"
+
+
+def _names(node: ast.AST) -> list[str]:
+    """What a statement defines."""
+    if isinstance(node, ast.Assign):
+        return [target.id for target in node.targets if isinstance(target, ast.Name)]
+    return [node.name] if isinstance(node, (ast.FunctionDef, ast.ClassDef)) else []
 
 
 def table(heads: str, rows: Iterable[Iterable[object]]) -> str:

@@ -12,13 +12,17 @@ from pathlib import Path
 
 import figures
 import gallery
+import make_pictures
 import numpy as np
 import plain_loops as plain
 import pytest
+import symptoms
 import worked_examples as examples
 from PIL import Image
 
 from paneldraw import ConeFilter, Framebuffer, Supersample
+from paneldraw.cli import check
+from paneldraw.controllers import CHIPS
 from paneldraw.raster.stroke import CAPS, JOINS
 from paneldraw.raster.surface import OPS
 
@@ -71,7 +75,7 @@ def test_a_dash_of_every_call_that_takes_one_is_in_the_gallery(call):
     assert re.search(rf"\bfb\.{call}\(.*dash=", CODE)
 
 
-@pytest.mark.parametrize("page", ["gallery.md", "algorithms.md"])
+@pytest.mark.parametrize("page", sorted(page.name for page in DOCS.glob("*.md")))
 def test_links_lead_somewhere(page):
     text = (DOCS / page).read_text(encoding="utf-8")
     titles = re.findall(r"^#+ (.*)$", text, re.M)
@@ -81,9 +85,14 @@ def test_links_lead_somewhere(page):
         assert link[1:] in anchors if link.startswith("#") else (DOCS / link).exists(), link
 
 
-def test_the_excerpts_and_tables_are_what_the_code_has():
+@pytest.mark.parametrize(("name", "tables"), make_pictures.PAGES.items())
+def test_the_excerpts_and_tables_are_what_the_code_has(name, tables):
+    page = (DOCS / name).read_text(encoding="utf-8")
+    assert examples.page(page, tables) == page, "run docs/make_pictures.py"
+
+
+def test_every_block_and_table_of_the_algorithms_is_made():
     page = examples.PAGE.read_text(encoding="utf-8")
-    assert examples.page(page) == page, "run docs/make_pictures.py"
     assert page.count("```python") == len(examples._EXCERPT.findall(page)), "an excerpt follows no link to its function"
     assert page.count("<!-- end -->") == len(examples._TABLE.findall(page)) > 8
 
@@ -103,6 +112,58 @@ def test_each_figure_is_shown_once_with_its_description_and_there_are_no_others(
     assert sorted(name for _, name in shown) == sorted(figures.pictures())
     assert sorted(figures.pictures()) == sorted(f"figures/{file.name}" for file in (DOCS / "figures").iterdir())
     assert all(len(description) > 40 for description, _ in shown)
+
+
+# -- Chips
+
+
+SYMPTOM_PAGE = (DOCS / "which_panel.md").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize(("name", "symptom"), symptoms.SYMPTOMS.items())
+def test_a_symptom_looks_as_shown_and_its_parameter_mends_it(name, symptom):
+    with Image.open(DOCS / f"panels/{name}.png") as file:
+        seen = np.asarray(file.convert("RGB"))
+    assert np.array_equal(np.asarray(symptoms.draw(symptom).convert("RGB")), seen), "run docs/make_pictures.py"
+    mended = symptoms.shown(symptom, mended=True)
+    card = Framebuffer(mended.shape[1], mended.shape[0])
+    check.card(card)
+    assert np.array_equal(mended, card.pixels)
+    assert np.array_equal(symptoms.shown(symptom), card.pixels) == (symptom.mend == "")
+    row = next(line for line in SYMPTOM_PAGE.splitlines() if f"](panels/{name}.png)" in line)
+    assert not symptom.mend or row.endswith(f"| `{symptom.mend}` |")
+
+
+def test_each_symptom_is_shown_once_and_there_are_no_other_pictures():
+    shown = re.findall(r"\]\((panels/.*?)\)", SYMPTOM_PAGE)
+    assert sorted(shown) == sorted(symptoms.pictures())
+    assert sorted(shown) == sorted(f"panels/{file.name}" for file in (DOCS / "panels").iterdir())
+
+
+def test_the_page_names_every_symptom_of_check():
+    for _, cure in check.SYMPTOMS.values():
+        parameters = re.findall(r"\w+=", cure)
+        assert parameters
+        assert all(parameter in SYMPTOM_PAGE for parameter in parameters)
+
+
+def test_the_table_of_chips_has_them_all():
+    page = (DOCS / "chips.md").read_text(encoding="utf-8")
+    assert re.findall(r"^\| `(\w+)`", page, re.M) == list(CHIPS)
+
+
+def test_the_blocks_of_the_page_on_adding_a_chip_run():
+    page = (DOCS / "add_a_chip.md").read_text(encoding="utf-8")
+    excerpts = {found["code"] for found in examples._EXCERPT.finditer(page)}
+    blocks = [block for block in re.findall(r"^```python\n(.*?)^```$", page, re.M | re.S) if block not in excerpts]
+    assert (len(excerpts), len(blocks)) == (4, 3)
+    names = {}
+    for block in blocks:
+        exec(block, names)
+    text = Framebuffer(128, 64)
+    text.text("SSD1308", 0, 0)
+    assert np.array_equal(names["chip"].pixels, text.pixels)
+    assert names["chip"].violations == []
 
 
 # -- The plain loops: what the textbook draws is what the drawing calls draw
