@@ -57,7 +57,7 @@ from paneldraw.transports import SerialTransport
                     "mirror_blocks": True,
                     "first_block": "top-left",
                 },
-                "transport": {"device": 1, "dc": None, "reset": None},
+                "transport": {"device": 1, "speed": 8_000_000, "dc": None, "reset": None},
             },
         ),
         ("i2c://1?chip=ht16k33", {"address": 0x70, "controller": HT16K33()}),
