@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+import os
 import shutil
 import sys
 from contextlib import contextmanager
@@ -16,7 +17,12 @@ from running import forked, started
 import paneldraw
 
 # No deadline: a test never times. The fixtures here hold nothing that an example could change.
-COMMON = settings(deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+# CI takes the same examples every time, so that a change is judged by what it changed; elsewhere they are always new.
+COMMON = settings(
+    deadline=None,
+    suppress_health_check=[HealthCheck.function_scoped_fixture],
+    derandomize=bool(os.environ.get("CI")),
+)
 settings.register_profile("quick", COMMON, max_examples=10)
 settings.register_profile("thorough", COMMON, max_examples=50)
 settings.load_profile("quick")  # unless --hypothesis-profile names another

@@ -15,6 +15,9 @@ from paneldraw.errors import PanelDisconnectedError, PanelError, PanelTimeoutErr
 from paneldraw.transports import I2CTransport, SPITransport
 
 ON_I2C = [name for name, make in CHIPS.items() if "i2c" in make.buses]
+#: One chip of each way of addressing always; those that are like them, in the thorough tests.
+FIRST = ("ssd1306", "sh1106", "ssd1327", "ht16k33")
+FAULTY = [name if name in FIRST else pytest.param(name, marks=pytest.mark.thorough) for name in ON_I2C]
 
 
 class Bus:
@@ -87,7 +90,7 @@ def short_write(bus, message):
     bus.stop_after = message
 
 
-@pytest.mark.parametrize("name", ON_I2C)
+@pytest.mark.parametrize("name", FAULTY)
 @pytest.mark.parametrize("fault", [nack, nack_within, timeout, power_cut, short_write])
 def test_after_a_fault_at_any_message_the_next_show_is_whole_and_right(name, fault):
     panel, _, _ = shown(name)

@@ -21,6 +21,11 @@ cdef struct Edge:
     long long end
     int winding
     int next
+    # In a block that has to be walked: in how many of its sub-scanlines spans begin (or else end) at the edge, and
+    # where it was before.
+    int turns
+    long long kept
+    long long kept_fraction
 
 # What coverage.py tells of it, inlined into the loops over edges.
 cdef inline long long place(Edge *edge, long long lines) noexcept nogil:
@@ -79,6 +84,8 @@ cdef class Coverage:
     cdef inline void _look_up(self, long long h, int lines) noexcept nogil
     cdef inline void _weigh(self, long long *ends, int count) noexcept nogil
     cdef long long _weigh_end(self, long long x, bint opens) noexcept nogil
+    cdef void reach_for(self, long long h, int lines) noexcept nogil
+    cdef void end_span(self, long long x, bint opens) noexcept nogil
     cdef inline void _touch(self, long long low, long long high) noexcept nogil
     cdef void _advance(self, long long h) noexcept nogil
     cdef void _paint_row(self) noexcept nogil

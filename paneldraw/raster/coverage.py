@@ -431,6 +431,17 @@ class Coverage:
                 _add(changes, self.bases[r] + at, weights, self.tables[r] + begin, width, sign)
         return left
 
+    def reach_for(self, h, lines):
+        """Prepare for the ends of spans of `lines` sub-scanlines from `h` on, weighed as one: of one or of a block."""
+        if h >= self.limit:
+            self._advance(h)
+        self._look_up(h, lines)
+
+    def end_span(self, x, opens):
+        """Weigh an end of a span at sub-pixel `x`, where `reach_for` prepared for it."""
+        at: cython.longlong = self._weigh_end(x, opens)
+        self._touch(at, at)
+
     def _touch(self, low, high):
         """Remember that ends changed the rows that are reached from place `low` to place `high` on."""
         slot: cython.int = self.slot

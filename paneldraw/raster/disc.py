@@ -118,7 +118,7 @@ def _blocks(coverage, edges, part, first, last):
     many: cython.int = -1
     while begin < last:
         count: cython.int = -1
-        if begin >= first and begin + block < last:
+        if begin >= first and begin + block <= last:
             if many < 0:
                 many = _spans(coverage, edges, part, begin, above)
             count = _spans(coverage, edges, part, begin + block, below)

@@ -5,7 +5,7 @@ or, on a horizontal edge, below: polygons that share an edge share no point and 
 """
 
 import cython
-from cython.cimports.paneldraw.raster.coverage import FRACTION, MOST, Edge, place
+from cython.cimports.paneldraw.raster.coverage import FRACTION, MOST, STEEP, Edge, place
 from cython.cimports.paneldraw.raster.floors import floored
 
 
@@ -155,6 +155,9 @@ def _sweep(coverage, top, bottom, nonzero, edges, starting, active, sides, spans
         if lines > 1 and latest <= begin and begin + lines <= soonest and _stay_in_order(active, crossing, lines):
             _take_block(coverage, active, crossing, begin, lines, nonzero, sides)
             continue
+        if block > 1 and coverage.filter is not None:
+            _take_unsteady_block(coverage, active, crossing, begin, lines, nonzero, sides)
+            continue
         for h in range(begin, begin + lines):
             coverage.spans(h, spans, _spans(active, crossing, h, nonzero, spans) >> 1)
             _put_in_order(active, crossing)
@@ -192,6 +195,55 @@ def _take_block(coverage, active, crossing, h, lines, nonzero, sides):
         coverage.block_of_edges(h, lines, active, crossing)
     for i in range(crossing):
         _step(active[i], lines)
+
+
+def _take_unsteady_block(coverage, active, crossing, h, lines, nonzero, before):
+    """Weigh a block in which some edges begin, end or cross; the others as one, whatever those do.
+
+    So what lies beside, seen or not, changes nothing.
+    """
+    i: cython.int
+    for i in range(crossing):
+        before[i] = active[i]
+        active[i].turns = 0
+        active[i].kept, active[i].kept_fraction = active[i].bound, active[i].fraction
+    _walk(active, crossing, h, nonzero, None, lines)
+    coverage.reach_for(h, lines)
+    for i in range(crossing):
+        edge: cython.pointer[Edge] = before[i]
+        active[i] = edge  # where edges meet, the second walk has to take them in the same order
+        edge.bound, edge.fraction = edge.kept, edge.kept_fraction
+        if _steady(edge, lines):
+            coverage.end_span(place(edge, lines // 2), edge.turns > 0)
+    _walk(active, crossing, h, nonzero, coverage, lines)
+
+
+def _walk(active, crossing, h, nonzero, coverage, lines):
+    """Walk through a block: without coverage, count which edges are sides of spans; with it, weigh those not steady."""
+    i: cython.int
+    k: cython.int
+    for k in range(lines):
+        winding: cython.int = 0
+        if coverage is not None:
+            coverage.reach_for(h + k, 1)
+        for i in range(crossing):
+            edge: cython.pointer[Edge] = active[i]
+            if not edge.first <= h + k < edge.end:
+                continue
+            outside: cython.bint = winding == 0
+            winding = winding + edge.winding if nonzero else 1 - winding
+            if outside or winding == 0:
+                if coverage is None:
+                    edge.turns += 1 if outside else -1
+                elif not _steady(edge, lines):
+                    coverage.end_span(edge.bound, outside)
+            _step(edge, 1)
+        _put_in_order(active, crossing)
+
+
+def _steady(edge, lines):
+    """Whether a block of sub-scanlines can be weighed as one at an edge."""
+    return (edge.turns == lines or edge.turns == -lines) and -STEEP <= edge.step < STEEP
 
 
 def _step(edge, lines):

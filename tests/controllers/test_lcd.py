@@ -417,7 +417,7 @@ def test_a_uc1609_on_an_adapter_of_short_messages():
 # -- Faults
 
 
-@pytest.mark.parametrize("make", LCDS)
+@pytest.mark.parametrize("make", [LCDS[0], *(pytest.param(make, marks=pytest.mark.thorough) for make in LCDS[1:])])
 @pytest.mark.parametrize("at_byte", [None, 1, 7])
 def test_faults_heal(make, at_byte):
     for number, cut in itertools.product(range(6), (False, True)):

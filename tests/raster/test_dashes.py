@@ -153,7 +153,9 @@ def test_thick_dashes_from_far_away_keep_time(package, distance, direction, poin
 
 
 @pytest.mark.parametrize("cap", ["butt", "square", "round"])
-@pytest.mark.parametrize("width", [1, 2.5, 300, 2**17, 2**40])
+@pytest.mark.parametrize(
+    "width", [1, 2.5, 300, *(pytest.param(width, marks=pytest.mark.thorough) for width in (2**17, 2**40))]
+)
 @pytest.mark.parametrize("reach", [2**17, 2**40, 2**70])
 def test_dashes_out_of_sight_cost_nothing(package, cap, width, reach):
     """A dash a pixel, from end to end: this ends at once, or never."""

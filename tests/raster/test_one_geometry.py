@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from math import atan2, ceil, cos, degrees, floor, hypot, radians, sin
 
 import numpy as np
@@ -107,6 +108,17 @@ def test_nor_do_clips_and_views_change_a_path(package, points, style, antialias,
     inside = np.s_[y : y + h, x : x + w]
     for fb in (clipped, viewed):
         assert (fb.pixels[inside] == whole.pixels[inside]).all()
+
+
+def test_what_is_out_of_sight_does_not_change_how_the_rest_is_weighed(package):
+    """Dashes that cannot be seen are left out, and edges elsewhere begin, end and cross."""
+    path = [(14, 0), (0, 10), (0, 0)]
+    for width, dash in itertools.product((0.25, 1, 2.5), ([1], [2, 1], None)):
+        whole, viewed = (package.Framebuffer(WIDTH, HEIGHT, 8) for _ in range(2))
+        style = {"width": width, "dash": dash, "antialias": package.ConeFilter()}
+        whole.polyline(path, 200, **style)
+        viewed.view(6, 0, 8, 2).polyline([(x - 6, y) for x, y in path], 200, **style)
+        np.testing.assert_array_equal(viewed.pixels[:2, 6:14], whole.pixels[:2, 6:14])
 
 
 # -- Caps and dashes
