@@ -152,6 +152,16 @@ def test_the_table_of_chips_has_them_all():
     assert re.findall(r"^\| `(\w+)`", page, re.M) == list(CHIPS)
 
 
+def test_the_script_of_the_page_on_running_runs(monkeypatch):
+    monkeypatch.delenv("PANELDRAW_PANEL", raising=False)
+    page = (DOCS / "running.md").read_text(encoding="utf-8")
+    scripts = re.findall(r"^```python\n(.*?)^```$", page, re.DOTALL | re.MULTILINE)
+    assert len(scripts) == 1
+    scope = {}
+    exec(scripts[0], scope)
+    assert scope["panel"].stats.frames == 6
+
+
 def test_the_blocks_of_the_page_on_adding_a_chip_run():
     page = (DOCS / "add_a_chip.md").read_text(encoding="utf-8")
     excerpts = {found["code"] for found in examples._EXCERPT.finditer(page)}

@@ -192,9 +192,9 @@ def test_an_ordered_dither_stays_where_it_is(package):
     assert (before[8:] == before[:8]).all()
 
 
-@pytest.mark.parametrize("bad", [[[1]], None, "picture.png", 5, object()])
+@pytest.mark.parametrize("bad", [[[1]], None, 5, object()])
 def test_other_things_are_no_pictures(package, bad):
-    with pytest.raises(TypeError, match=r"^picture must be a numpy array or a Pillow image, not "):
+    with pytest.raises(TypeError, match=r"^picture must be a numpy array, a Pillow image or a path, not "):
         package.Framebuffer(4, 4).image(bad)
 
 
@@ -246,3 +246,14 @@ def test_images_are_read_wherever_they_lie(package, mode, made, tmp_path):
         lit = np.asarray(image) > 0
         wanted[2 : 2 + lit.shape[0], 1 : 1 + lit.shape[1]] = (lit * (2**depth - 1))[:38, :59]
         assert (fb.pixels == wanted).all()
+
+
+def test_a_picture_by_its_path(package, tmp_path):
+    gray = np.random.default_rng(1).integers(0, 256, (5, 7), np.uint8)
+    Image.fromarray(gray).save(tmp_path / "a.png")
+    named, given = package.Framebuffer(9, 9, 8), package.Framebuffer(9, 9, 8)
+    named.image(str(tmp_path / "a.png"), 1, 2)
+    given.image(gray, 1, 2)
+    assert named == given
+    with pytest.raises(FileNotFoundError):
+        named.image(tmp_path / "b.png")

@@ -201,6 +201,9 @@ def _demo(options: argparse.Namespace) -> int:
         raise _UserError("a file cannot hold an endless demo; give --seconds a number")
     _check_folder(options.save)
     with _opened(options) as panel:
+        url = options.panel or os.environ.get("PANELDRAW_PANEL") or ""
+        if panel.simulated is None and "on_close=" not in url:
+            panel.on_close = "clear"  # a demo's last picture is of no use
         playback.play(find(options.name), panel, options.name, frames=frames, fps=options.fps, save_to=options.save)
     return 0
 

@@ -59,15 +59,16 @@ def card(fb: Framebuffer) -> None:
 def steps(panel: Panel) -> Iterator[Step]:
     """Say which tricks of this chip's plans can be tried one by one."""
     pointer, window = panel.controller.pointer, panel.controller.window
-    if panel.controller.packing != "pages":
+    if panel.controller.packing not in ("pages", "nibbles"):
         return
     shows = "a solid bar in the upper left, and nothing else"
-    if pointer is not None and pointer.column is None:
+    if pointer is not None and pointer.column is None and panel.controller.packing == "pages":
         yield Step("the pointer stands behind the data", shows, _in_two_messages)
         yield Step("a half of the column pointer holds", shows, _with_one_half)
     if window is not None:
         yield Step("a window written to its end begins again", shows, _window_twice)
-    if pointer is not None and pointer.column is None and getattr(panel.transport.cost, "chained", None) is not None:
+    chains = panel.controller.packing == "pages" and panel.transport.cost.chained is not None
+    if pointer is not None and pointer.column is None and chains:
         yield Step("control bytes in a chain", shows, _in_a_chain, otherwise="")
 
 
@@ -100,14 +101,24 @@ def _with_one_half(panel: Panel) -> None:
 
 
 def _window_twice(panel: Panel) -> None:
-    window = panel.controller.window
+    """Fill a window twice: an eighth of it first, all of it from where the pointer stands then."""
+    window, (wide, high) = panel.controller.window, panel.controller.cell
     if window is None:
         return
     column, half = _bar(panel)
-    bounds = bytes((window.columns, column, column + 2 * half - 1, window.rows, 0, 0))
-    panel.transport.command(window.across + bounds)
-    panel.transport.data(b"\x0f" * 2 * half)
-    panel.transport.data(b"\xff" * 2 * half)
+    left, rows = column // wide, 8 // high
+    columns = 2 * half // wide
+    for command in (
+        window.across,
+        bytes((window.columns, left, left + columns - 1)),
+        bytes((window.rows, panel.controller.row_offset // high, panel.controller.row_offset // high + rows - 1)),
+        window.write,
+    ):
+        if command:
+            panel._command(command)
+    size = columns * window.column_bytes * rows
+    panel.transport.data(b"\x0f" * size)
+    panel.transport.data(b"\xff" * size)
 
 
 def _in_a_chain(panel: Panel) -> None:

@@ -24,7 +24,14 @@ from paneldraw.transports import I2CTransport
 if TYPE_CHECKING:
     from paneldraw.panel import Panel
 
-PANELS = {0x3C: "as most OLED panels", 0x3D: "as an OLED panel with its address jumper moved"}
+PANELS = {
+    0x3C: "as most OLED panels",
+    0x3D: "as an OLED panel with its address jumper moved",
+    0x70: "as an HT16K33 LED matrix or a multiplexer",
+    0x74: "as an IS31FL3731 LED matrix",
+}
+OTHERS = {0x70: "ht16k33", 0x74: "is31fl3731"}
+"""Chips that are known by their address alone."""
 STATUS = {0x8: "sh1106", 0x3: "ssd1306", 0x6: "ssd1306", 0x7: "sh1107", 0xF: "sh1107"}
 """The lower four bits of the status byte, as modules seen so far answer them, and what chip they had."""
 SYMPTOMS = (
@@ -239,11 +246,11 @@ def _guess(bus: Any, address: int, found: Found, url: str) -> str:
     if address not in PANELS:
         return ""
     panel = url if url == "sim://" else f"{url}/{address:#x}"
-    chip = _chip(bus, address)
+    chip = OTHERS.get(address) or _chip(bus, address)
     named = f"{panel}?chip={chip}" if chip and url != "sim://" else panel
     found.panels.append(named)
     found.unknown = found.unknown or chip is None
-    guess = f"; its status is that of an {chip.upper()}, at a guess" if chip else ""
+    guess = f"; its status is that of an {chip.upper()}, at a guess" if chip and address not in OTHERS else ""
     return f", {PANELS[address]}{guess}; try: paneldraw demo --panel {shlex.quote(named)}"
 
 

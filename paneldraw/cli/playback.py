@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import datetime
+import itertools
 import math
 import sys
 import time
@@ -11,6 +12,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from paneldraw.pacing import Frames
 from paneldraw.simulator import Frame, TerminalView, save
 from paneldraw.simulator.recorder import Showing
 
@@ -88,8 +90,6 @@ def play(demo: Demo, panel: Panel, name: str, *, frames: float, fps: float, save
         A .gif of all frames, or a .png of the last.
     """
     chip = simulated(panel)
-    if chip is None:
-        panel.on_close = "clear"
     real_time = save_to is None and (chip is None or sys.stdout.isatty())
     still = save_to is not None and save_to.suffix.lower() == ".png"
     start = _seconds_after_midnight() if real_time else TEN_PAST_TEN
@@ -123,17 +123,11 @@ def play(demo: Demo, panel: Panel, name: str, *, frames: float, fps: float, save
 
 def _paced(first: int, frames: float, fps: float, real_time: bool) -> Iterator[int]:
     """Count frames, in real time at `fps`; those that come too late are left out."""
-    start = time.monotonic()
-    index = first
-    while index < frames:
-        yield index
-        index += 1
-        if real_time:
-            ahead = start + (index - first) / fps - time.monotonic()
-            if ahead > 0:
-                time.sleep(ahead)
-            else:
-                index += int(-ahead * fps)
+    beats = (beat.number for beat in Frames(fps)) if real_time else itertools.count()
+    for number in beats:
+        if first + number >= frames:
+            return
+        yield first + number
 
 
 def _seconds_after_midnight() -> float:

@@ -873,7 +873,7 @@ class Framebuffer:
 
     def image(
         self,
-        picture: Image.Image | NDArray[Any],
+        picture: Image.Image | NDArray[Any] | str | PathLike[str],
         x: int | float = 0,
         y: int | float = 0,
         *,
@@ -883,9 +883,9 @@ class Framebuffer:
 
         Parameters
         ----------
-        picture : PIL.Image.Image or numpy.ndarray
-            An array of grays: shape (height, width), uint8 0 ... 255 or bool; or of colors: (height, width, 3 or 4).
-            Where a picture is transparent, what is there shines through.
+        picture : PIL.Image.Image, numpy.ndarray or path
+            An array of grays: shape (height, width), uint8 0 ... 255 or bool; or of colors: (height, width, 3 or 4). A
+            path is that of a file that Pillow reads. Where a picture is transparent, what is there shines through.
         x, y : int or float
         dither : {None, "bayer", "floyd-steinberg"}
             How grays become levels: the nearest level, a fixed pattern, or diffusion of the error.

@@ -90,8 +90,9 @@ def to_gray(picture: Any) -> tuple[Levels, Levels | None]:
 
     Parameters
     ----------
-    picture : PIL.Image.Image or numpy.ndarray
-        An array of shape (height, width), bool or uint8 0 ... 255, or (height, width, 3 or 4) of RGB or RGBA.
+    picture : PIL.Image.Image, numpy.ndarray or path
+        An array of shape (height, width), bool or uint8 0 ... 255, or (height, width, 3 or 4) of RGB or RGBA. A path is
+        that of a file that Pillow reads.
 
     Raises
     ------
@@ -100,10 +101,12 @@ def to_gray(picture: Any) -> tuple[Levels, Levels | None]:
     ValueError
         If the array has another shape.
     """
+    if isinstance(picture, (str, os.PathLike)):
+        picture = opened(picture)
     if hasattr(picture, "getbands"):
         return _image_to_gray(picture)
     if not isinstance(picture, np.ndarray):
-        raise TypeError(f"picture must be a numpy array or a Pillow image, not {type(picture).__name__}")
+        raise TypeError(f"picture must be a numpy array, a Pillow image or a path, not {type(picture).__name__}")
     if picture.dtype != bool and picture.dtype != np.uint8:
         raise TypeError(f"picture must hold uint8 grays 0 ... 255 or bool, not {picture.dtype}; convert it first")
     if picture.ndim == 3 and picture.shape[2] in (3, 4) and picture.dtype == np.uint8:

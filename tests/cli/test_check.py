@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from paneldraw import Panel, simulator
+from paneldraw import Panel, open_panel, simulator
 from paneldraw.cli import check, main
 from paneldraw.controllers import CHIPS, SH1106, SSD1306
 from paneldraw.transports import I2CTransport
@@ -37,6 +37,20 @@ def test_a_chip_that_obeys_shows_what_every_step_says(make, twin, offset):
     assert glass[0][1][0].all()
     assert glass[0][1][:, -1].all()
     assert found.parameters == ["chained_control=1", "contrast=255"]
+
+
+@pytest.mark.parametrize("name", ["ssd1327", "ssd1322", "ssd1362"])
+def test_windows_of_grays_are_tried_too(name):
+    panel = open_panel(f"sim://{name}?updates=whole")
+    glass = []
+    found = check.run(panel, lambda panel, shows: glass.append((shows, panel.simulated.pixels.copy())), lambda _: "y")
+    bar = np.zeros((panel.height, panel.width), np.uint8)
+    bar[:8, :32] = 15
+    tricks = [picture for shows, picture in glass if "solid bar" in shows]
+    assert len(tricks) == 1
+    np.testing.assert_array_equal(tricks[0], bar)
+    assert found.parameters == ["contrast=255"]
+    assert panel.simulated.violations == []
 
 
 class Forgetful(simulator.SSD1306):

@@ -74,6 +74,11 @@ def test_the_chip_is_guessed_by_its_status(machine, make, guess):
     assert not any("noise" in line for line in found.lines)
 
 
+def test_led_matrices_are_known_by_their_address(machine):
+    machine[1] = ("bcm2835", simulator.I2CBus({0x70: simulator.HT16K33(), 0x74: simulator.IS31FL3731()}))
+    assert diagnostics.detect().panels == ["i2c://1/0x70?chip=ht16k33", "i2c://1/0x74?chip=is31fl3731"]
+
+
 def test_where_nothing_can_be_read_the_symptoms_are_told(machine):
     class WriteOnly(simulator.SSD1306):
         def read(self, length):
