@@ -17,6 +17,7 @@ import numpy as np
 import numpy.typing as npt
 
 from paneldraw import urls
+from paneldraw.care import Care
 from paneldraw.controllers import BUSES, CHIPS, Controller, features
 from paneldraw.controllers.packing import packer
 from paneldraw.errors import PanelError, PanelTimeoutError, TransportError, did_you_mean
@@ -129,6 +130,11 @@ class Panel:
     refresh : float, optional
         Start the chip anew with the first show after so many seconds, for a bus on which lost power cannot be noticed.
         On I2C most chips say whether they are still on, and are asked once a second. Default: None, never.
+    dim_after, off_after : float, optional
+        Seconds without another picture after which the panel is as dark as `dim` can make it, or off; the next picture
+        wakes it. Default: None, never.
+    pixel_shift : float, optional
+        Move the picture by a pixel every so many seconds, around a square, so that no edge burns in. Default: None.
     updates : str, optional
         How pictures are sent: in the fewest bytes that the datasheet allows, ``"least"`` (default); ``"plain"``, every
         run addressed in full, with nothing assumed of the chip's pointers, for clones that do not keep to the
@@ -167,11 +173,15 @@ class Panel:
         on_close: OnClose = "keep",
         updates: Updates = "least",
         refresh: float | None = None,
+        dim_after: float | None = None,
+        off_after: float | None = None,
+        pixel_shift: float | None = None,
     ) -> None:
         record = _record(controller)
         transport = _carrier(transport, record)
         try:
             self._set_up(record, transport, contrast, updates, refresh)
+            self._care = Care(dim_after, off_after, pixel_shift, time.monotonic())
             self.rotate = rotate
             _check_on_close(on_close)
             with self._lock:
@@ -183,6 +193,8 @@ class Panel:
             raise
         follow(self)
         self.on_close = on_close
+        if self._care.needed:
+            self._own_sender().wake_at(self._care.due())
 
     def _set_up(
         self, controller: Controller, transport: Transport, contrast: int | None, updates: str, refresh: float | None
@@ -229,6 +241,7 @@ class Panel:
         self._looked = self._started = 0.0
         self._asked = _NOTHING  # what reads cost that no report has counted
         self._own: Framebuffer | None = None
+        self._last: tuple[Levels, int] = (np.zeros((0, 0), np.uint8), 0)  # the last picture, where it needs care
 
     @property
     def rotate(self) -> int:
@@ -696,10 +709,13 @@ class Panel:
         """Whether this thread is in the middle of a call."""
         return bool(self._lock._is_owned())  # type: ignore[attr-defined]
 
-    def _hand_over(self, pixels: Levels, max_level: int) -> Report:
+    def _own_sender(self) -> Sender:
         if self._sender is None:
             self._sender = Sender(self)
-        self.stats.dropped += self._sender.put(pixels, max_level)
+        return self._sender
+
+    def _hand_over(self, pixels: Levels, max_level: int) -> Report:
+        self.stats.dropped += self._own_sender().put(pixels, max_level)
         return Report(0, 0, 0, 0.0, queued=True)
 
     def _show(self, pixels: Levels, max_level: int, force: bool = False) -> Report:
@@ -727,6 +743,8 @@ class Panel:
     def _show_now(self, pixels: Levels, max_level: int, force: bool, started: float) -> Report:
         if self._closed or self._foreign:
             self._check()
+        if self._care.needed:
+            pixels = self._cared_for(pixels, max_level)
         (self._pack or self._arranged)(self._upright(pixels), max_level, self._planner.fresh)
         if (
             force
@@ -794,7 +812,7 @@ class Panel:
         chip = self.controller
         mode = self._mode() if self._inverted or self._all_on else ()
         effect = [self._effect] if self._effect and not self._effect_lights else []
-        commands = [*chip.init, *mode, *self._brightness(), *effect, *self._kept]
+        commands = [*chip.init, *mode, *self._brightness(), *effect, *self._kept, *self._rest()]
         if self._started:
             self.stats.restarts += 1
         self._lit = self._watched = self._stirred = self._scrolling = False
@@ -818,7 +836,7 @@ class Panel:
             wire, messages = self._calm()
         plan, sent = self._bring()
         wire += sent
-        if not (self._lit or self._asleep):
+        if not (self._lit or self._asleep or self._care.rest == "off"):
             power_on = self._command(*self._light())
             wire, messages = wire + power_on.wire_bytes, messages + power_on.messages
             self._lit = True
@@ -996,8 +1014,46 @@ class Panel:
             ready, self._ready = self._ready, False
             self._command(self.controller.power_off) if ready else self._start()
 
+    # -- Care for the glass
+
+    def _cared_for(self, pixels: Levels, max_level: int) -> Levels:
+        """Remember a picture, wake the panel if it is another one, and return it where it is to be now."""
+        last, highest = self._last
+        if highest != max_level or not np.array_equal(pixels, last):
+            self._last = pixels.copy(), max_level
+            if self._care.rest:
+                self._ready = False  # a start brings back light and brightness
+            self._care.changed(time.monotonic())
+            self._own_sender().wake_at(self._care.due())
+        return self._care.moved(pixels)
+
     def _look_after(self) -> None:
-        """Do what is due when no picture came for a while."""
+        """Do what is due when no other picture came for a while."""
+        with self._lock:
+            if self._closed or self._foreign:
+                return
+            before = self._care.rest
+            moves = self._care.act(time.monotonic())
+            if self._care.rest != before:
+                self._do(self._go_to_rest)
+            if moves and self._shown:
+                self._show_now(*self._last, False, time.perf_counter())
+            self._own_sender().wake_at(self._care.due())
+
+    def _go_to_rest(self) -> None:
+        ready, self._ready = self._ready, False
+        if not ready:
+            self._restore()
+        self._command(*self._rest())
+        self._lit = self._lit and self._care.rest != "off"
+        self._ready = True
+
+    def _rest(self) -> tuple[bytes, ...]:
+        """The commands for the rest that the panel takes; none while it does not."""
+        chip = self.controller
+        if self._care.rest == "dim" and chip.contrast is not None:
+            return *chip.contrast.commands(0), *(chip.drive[-1] if chip.drive else ())
+        return (chip.power_off,) if self._care.rest == "off" else ()
 
 
 def _record(controller: Any) -> Controller:

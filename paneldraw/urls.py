@@ -21,7 +21,10 @@ _FORMS: Final = {
     "sim": "sim://ssd1306?size=128x64",
 }
 _PYSERIAL: Final = ("rfc2217", "socket", "loop")
-_PANEL: Final = {"rotate": "180", "contrast": "200", "on_close": "", "updates": ""}
+_PANEL: Final = {
+    "rotate": "180", "contrast": "200", "on_close": "", "updates": "",
+    **dict.fromkeys(("refresh", "dim_after", "off_after", "pixel_shift"), "60"),
+}
 """Settings of `Panel`, each with an example where it is a number."""
 _SWITCHES: Final = ("mirror_x", "mirror_y", "mirror_blocks", "charge_pump", "internal_reference", "chained_control")
 _TEXTS: Final = ("order", "first_block", "block_rotation", "board")

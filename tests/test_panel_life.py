@@ -425,6 +425,68 @@ def test_more_frames_than_can_be_are_said_once_with_the_figure():
     assert len(said) == 1
 
 
+# -- Care for the glass
+
+
+def until(condition):
+    """Wait for something that a thread does."""
+    deadline = time.monotonic() + 10
+    while not condition() and time.monotonic() < deadline:
+        time.sleep(0.005)
+    assert condition()
+
+
+def test_a_panel_dims_and_goes_off_and_the_next_picture_wakes_it():
+    panel, chip = simulated("?dim_after=1&off_after=2&contrast=200")
+    panel.show(noise(1))
+    care = panel._care
+    for rest, contrast, on in (("dim", 0, True), ("off", 0, False)):
+        panel._care._changed -= 1
+        panel._sender.wake_at(care.due())
+        until(lambda rest=rest: care.rest == rest and panel._ready)
+        assert (chip.contrast, chip.registers.on) == (contrast, on)
+    assert panel.show(noise(1)).unchanged
+    assert not chip.registers.on
+    panel.show(noise(2))
+    np.testing.assert_array_equal(chip.pixels, noise(2))
+    assert (chip.contrast, chip.registers.precharge, care.rest) == (200, 0xF1, "")
+    panel.close()
+
+
+def test_a_restart_at_rest_stays_at_rest():
+    panel, chip = simulated("?dim_after=1")
+    panel.show(noise(1))
+    panel._care._changed -= 1
+    panel._sender.wake_at(panel._care.due())
+    until(lambda: panel._care.rest == "dim" and panel._ready)
+    chip.power_cycle()
+    panel.show(noise(1), force=True)
+    np.testing.assert_array_equal(chip.pixels, noise(1))
+    assert (chip.contrast, chip.registers.precharge) == (0, 0x11)
+    panel.close()
+
+
+def test_the_picture_moves_around_a_square():
+    panel, chip = simulated("?pixel_shift=1000")
+    picture = noise(1)
+    panel.show(picture)
+    for right, down in ((1, 0), (1, 1), (0, 1), (0, 0)):
+        moved = np.zeros_like(picture)
+        moved[down:, right:] = picture[: 64 - down, : 128 - right]
+        panel._care._moved -= 1000
+        panel._sender.wake_at(panel._care.due())
+        until(lambda moved=moved: np.array_equal(chip.pixels, moved))
+    panel.show(noise(2))
+    np.testing.assert_array_equal(chip.pixels, noise(2))
+    panel.close()
+
+
+@pytest.mark.parametrize("name", ["dim_after", "off_after", "pixel_shift"])
+def test_no_care_in_no_time(name):
+    with pytest.raises(ValueError, match=f"{name} must be seconds above 0"):
+        simulated(f"?{name}=0")
+
+
 # -- Processes
 
 
