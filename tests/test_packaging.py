@@ -85,6 +85,7 @@ def wheel(without_compiler):
         yield file
 
 
+@pytest.mark.thorough
 def test_the_first_line_runs_the_demo(without_compiler):
     picture = re.search(r"┌─+┐\n(?:│.{128}│\n)+└─+┘\n", without_compiler.first.stdout)
     assert picture, without_compiler.first.stdout[-3000:]

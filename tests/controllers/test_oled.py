@@ -51,7 +51,10 @@ def pictures(panel, count=4):
         picture[height // 3 : height // 2, width // 4 : width // 2] = random.integers(levels)
 
 
-@pytest.mark.parametrize("updates", ["least", "plain", "whole"])
+ALWAYS = ("least", *(pytest.param(each, marks=pytest.mark.thorough) for each in ("plain", "whole")))
+
+
+@pytest.mark.parametrize("updates", ALWAYS)
 @pytest.mark.parametrize("mirror_y", [False, True])
 @pytest.mark.parametrize("mirror_x", [False, True])
 @pytest.mark.parametrize(("name", "size"), MODULES)
