@@ -141,7 +141,7 @@ def test_a_restart_in_the_middle_of_a_picture_of_the_emulated_chip(board: Board,
     assert left[0] < 0
 
 
-SPI_PIXEL = {"ssd1306": 4, "sh1106": 4, "ssd1322": 9, "max7219": 16}
+SPI_PIXEL = {"ssd1306": 4, "sh1106": 4, "ssd1322": 9, "max7219": 16, "pcd8544": 3}
 
 
 class Wire:
