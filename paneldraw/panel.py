@@ -1008,6 +1008,8 @@ class Panel:
 
     def _leave(self) -> None:
         if self._on_close == "clear":
+            if self._inverted:  # black is black; a start leaves the chip as its init has it
+                self._inverted = self._ready = False
             self._planner.fresh[:] = 0
             self._send()
         elif self._on_close == "off":

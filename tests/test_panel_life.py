@@ -487,6 +487,16 @@ def test_no_care_in_no_time(name):
         simulated(f"?{name}=0")
 
 
+@pytest.mark.parametrize("chip", ["ssd1306", "ssd1327", "pcd8544", "st7920", "max7219", "is31fl3731"])
+def test_an_inverted_panel_is_left_black_too(chip):
+    panel = open_panel(f"sim://{chip}?on_close=clear")
+    panel.invert()
+    panel.show(np.zeros((panel.height, panel.width), np.uint8))
+    assert panel.simulated.pixels.all()
+    panel.close()
+    assert not panel.simulated.pixels.any()
+
+
 # -- Processes
 
 
