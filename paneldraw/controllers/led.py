@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Final
+from typing import Any, Final
 
 from paneldraw.controllers.chip import Size, listed
 from paneldraw.controllers.record import Contrast, Controller, Effect, Registers, commands
@@ -26,6 +26,10 @@ _MIRRORS: Final = ("mirror_x", "mirror_y")
 
 
 # -- Chips in a row
+
+
+#: What no LED chip here has: commands that do nothing, inversion, and a status to read.
+_LACKING: Final[dict[str, Any]] = {"resync": b"", "normal": b"", "inverse": b"", "status_off": 0}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -136,13 +140,10 @@ class Chain:
                 command_bytes=2,
                 chips=len(blocks),
             ),
-            resync=b"",
             power_on=self.power_on,
             power_off=self.power_off,
-            normal=b"",
-            inverse=b"",
-            status_off=0,
             contrast=self.contrast,
+            **_LACKING,
             all_on=self.all_on,
             follow=self.follow,
             buses=self.buses,
@@ -327,13 +328,10 @@ class Matrix:
                 first=self.first,
                 command_bytes=self.command_bytes,
             ),
-            resync=b"",
             power_on=self.power_on,
             power_off=self.power_off,
-            normal=b"",
-            inverse=b"",
-            status_off=0,
             contrast=self.contrast,
+            **_LACKING,
             blink=self.blink,
             buses=self.buses,
         )
