@@ -580,7 +580,7 @@ def test_joyit_st7920(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "spidev", SimpleNamespace(SpiDev=Select))
     monkeypatch.setitem(sys.modules, "gpiozero", lines)
     monkeypatch.setattr("time.sleep", lambda seconds: None)
-    driver = pytest.importorskip("ST7920.st7920")
+    driver = pytest.importorskip("ST7920.st7920", reason="joyit-st7920 needs a C compiler to install; .ci/run does")
     display = driver.ST7920()
     picture = random_picture(128, 64, 12)
     display.draw_image(Image.fromarray((1 - picture) * 255).convert("1", dither=Image.Dither.NONE))  # black is lit
