@@ -7,7 +7,9 @@ import os
 import shutil
 import sys
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 from golden import assert_golden
@@ -77,6 +79,14 @@ class Sources:
 
 def _take_out():
     return {name: sys.modules.pop(name) for name in list(sys.modules) if name.partition(".")[0] == "paneldraw"}
+
+
+@pytest.fixture
+def own_time(monkeypatch):
+    """A time for panels that only their own pauses pass, so that no busy machine ends their patience."""
+    pauses = [1000.0]
+    now = partial(sum, pauses)
+    monkeypatch.setattr("paneldraw.panel.time", SimpleNamespace(sleep=pauses.append, perf_counter=now, monotonic=now))
 
 
 @pytest.fixture(scope="session")

@@ -361,6 +361,7 @@ def messages_of_the_last_two():
     return sum([panel.show(picture).messages for picture in PICTURES][1:])
 
 
+@pytest.mark.usefixtures("own_time")
 @pytest.mark.parametrize("code", NO_ANSWER)
 @pytest.mark.parametrize("at_byte", [None, 0, 1, 2, 3, 5])
 @pytest.mark.parametrize("lose_power", [False, True])
@@ -388,6 +389,7 @@ def test_after_a_fault_at_any_message_the_next_show_is_whole(code, at_byte, lose
         assert chip.contrast == 33
 
 
+@pytest.mark.usefixtures("own_time")
 @pytest.mark.parametrize("code", [errno.EAGAIN, errno.EBUSY, errno.ETIMEDOUT])
 @pytest.mark.parametrize("at_byte", [None, 0, 1, 2, 3])
 def test_a_transient_fault_at_any_message_is_survived(code, at_byte):

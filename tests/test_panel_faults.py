@@ -15,6 +15,8 @@ from paneldraw.controllers import MAX7219, SH1106, SSD1306, SSD1327
 from paneldraw.errors import PanelError
 from paneldraw.transports import I2CTransport, SPITransport
 
+pytestmark = pytest.mark.usefixtures("own_time")
+
 CODES = [errno.EREMOTEIO, errno.ENXIO, errno.EIO, errno.ETIME, errno.EAGAIN, errno.EBUSY, errno.ETIMEDOUT]
 CHAIN = MAX7219(32, 8)
 

@@ -334,13 +334,18 @@ def test_a_panel_that_is_forgotten_takes_its_thread_along():
 
 
 class Slow(simulator.I2CBus):
-    """A bus that takes its time when it is told to."""
+    """A bus that takes its time when it is told to, and says when it is being waited for."""
 
     gate = None
 
+    def __init__(self, devices):
+        super().__init__(devices)
+        self.reached = threading.Event()
+
     def i2c_rdwr(self, *messages):
         if self.gate is not None:
-            self.gate.wait(10)
+            self.reached.set()
+            self.gate.wait(60)
         return super().i2c_rdwr(*messages)
 
 
@@ -352,7 +357,7 @@ def test_the_latest_picture_wins_and_flush_has_an_end():
     bus.gate = threading.Event()
     for seed in range(1, 10):
         panel.show(noise(seed), wait=False)
-        time.sleep(0.01)
+        assert bus.reached.wait(60)
     with pytest.raises(PanelTimeoutError, match=r"not shown within 0.05 s"):
         panel.flush(0.05)
     bus.gate.set()

