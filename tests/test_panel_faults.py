@@ -18,6 +18,9 @@ from paneldraw.transports import I2CTransport, SPITransport
 pytestmark = pytest.mark.usefixtures("own_time")
 
 CODES = [errno.EREMOTEIO, errno.ENXIO, errno.EIO, errno.ETIME, errno.EAGAIN, errno.EBUSY, errno.ETIMEDOUT]
+#: One code of each kind always; those that are like them, in the thorough tests.
+FIRST = (errno.EREMOTEIO, errno.ETIME, errno.EAGAIN, errno.ETIMEDOUT)
+FAULTS = [code if code in FIRST else pytest.param(code, marks=pytest.mark.thorough) for code in CODES]
 CHAIN = MAX7219(32, 8)
 
 
@@ -53,7 +56,7 @@ CALLS = {
 }
 
 
-@pytest.mark.parametrize("code", CODES)
+@pytest.mark.parametrize("code", FAULTS)
 @pytest.mark.parametrize("times", [1, 3, None])
 @pytest.mark.parametrize("call", CALLS)
 @pytest.mark.parametrize("chip", [SSD1306, SH1106, SSD1327, CHAIN], ids=["ssd1306", "sh1106", "ssd1327", "chain"])
