@@ -9,7 +9,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-NOT_NUMBERS = ["1", b"1", None, 1j, [1], (), {}, np.zeros(2), np.array([1.0]), object(), Decimal("sNaN")]
+NOT_NUMBERS = ["1", b"1", None, 1j, [1], (), {}, np.zeros(2), np.array([1.0]), ..., Decimal("sNaN")]
 NOT_FINITE = [float("nan"), float("inf"), float("-inf"), np.float32("nan"), Decimal("Infinity"), Fraction(10**400)]
 NOT_WHOLE = [1.0, 1.5, np.float32(1), "1", b"1", 1j, [1], float("nan"), Decimal(1), Fraction(1)]
 

@@ -84,7 +84,7 @@ def test_the_set_up_is_two_lines():
         assert line.count("\n") == 1
         assert line.startswith("python3 -m venv .venv && .venv/bin/pip install -e ")
     assert run.endswith(" && .venv/bin/paneldraw demo\n")
-    assert test.endswith(" && .venv/bin/pytest\n")
+    assert test.endswith(" && .venv/bin/pytest -n auto\n")
 
 
 def test_ci_takes_its_line_from_the_readme():
