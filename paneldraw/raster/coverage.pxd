@@ -26,6 +26,12 @@ cdef struct Edge:
     int turns
     long long kept
     long long kept_fraction
+    # In a row of pixels that is counted eight at a time: from which pixel to which one it runs, where it is from the
+    # first one's left side on, and how far it moves; sub-pixels with 36 bits behind the point.
+    int pixel
+    int until
+    long long at
+    long long pace
 
 # What coverage.py tells of it, inlined into the loops over edges.
 cdef inline long long place(Edge *edge, long long lines) noexcept nogil:
@@ -76,10 +82,12 @@ cdef class Coverage:
     cdef void row_of_spans(self, long long y, long long *ends, int count) noexcept nogil
     cdef void finish(self) noexcept nogil
     cdef void block_of_spans(self, long long h, long long *ends, int count) noexcept nogil
-    cdef void block_of_edges(self, long long h, int lines, Edge **edges, int count) noexcept nogil
+    cdef bint block_of_edges(self, long long h, int lines, Edge **edges, int count) noexcept nogil
     cdef void _paint_between(self, long long y, int lines, Edge *left, Edge *right) noexcept nogil
     cdef inline void _count(self, long long *ends, int count) noexcept nogil
-    cdef void _count_edges(self, Edge **edges, int count) noexcept nogil
+    cdef bint _aim(self, Edge **edges, int count) noexcept nogil
+    cdef void _count_edges(self, long long y, Edge **edges, int count) noexcept nogil
+    cdef inline void _paint_counted(self, long long y, int first, int end, unsigned long long counts) noexcept nogil
     cdef void _weigh_edges(self, long long h, Edge **edges, int count) noexcept nogil
     cdef inline void _look_up(self, long long h, int lines) noexcept nogil
     cdef inline void _weigh(self, long long *ends, int count) noexcept nogil
@@ -89,3 +97,5 @@ cdef class Coverage:
     cdef inline void _touch(self, long long low, long long high) noexcept nogil
     cdef void _advance(self, long long h) noexcept nogil
     cdef void _paint_row(self) noexcept nogil
+
+cdef unsigned long long *counts_before(int n) noexcept nogil

@@ -15,7 +15,7 @@ import numbers
 
 import cython
 from cython.cimports.paneldraw.raster.cone import BLOCK, FILTER_FULL, FILTER_SHIFT, ConeFilter
-from cython.cimports.paneldraw.raster.paint import inverse_of, paint_coverage
+from cython.cimports.paneldraw.raster.paint import inverse_of, paint_coverage, paint_eight
 from cython.cimports.paneldraw.raster.surface import Surface
 
 from paneldraw._signatures import SignatureOfInit
@@ -25,6 +25,11 @@ TYPE_CHECKING = False
 
 # The fraction's bits of a place between a window's sides; places themselves are less than 2**27.
 _FIXED = cython.declare(cython.int, 36)
+
+# In a number of eight bytes: 1, 1 in each, and all bits.
+_ONE = cython.declare(cython.ulonglong, 1)
+_ONES = cython.declare(cython.ulonglong, 0x0101010101010101)
+_ALL = cython.declare(cython.ulonglong, 0xFFFFFFFFFFFFFFFF)
 
 if not cython.compiled:
     MOST, FRACTION, STEEP = 16, 58, 8
@@ -253,19 +258,23 @@ class Coverage:
     def block_of_edges(self, h, lines, edges, count):
         """Take the spans of `lines` sub-scanlines from `h` on that lie between straight edges, two by two.
 
-        That is a whole `block`; where pixels are not covered in part, any number up to `MOST`.
+        That is a whole `block`; where pixels are not covered in part, any number up to `MOST`. Returns whether they
+        were taken: where spans are counted, edges may be too flat for it.
         """
         i: cython.int
         if not self.partial:
             for i in range(0, count, 2):
                 self._paint_between(h, lines, edges[i], edges[i + 1])
-            return
+            return True
+        if self.filter is None:
+            if not self._aim(edges, count):
+                return False
+            self._count_edges(h // self.n, edges, count)
+            return True
         if h >= self.limit:
             self._advance(h)
-        if self.filter is None:
-            self._count_edges(edges, count)
-        else:
-            self._weigh_edges(h, edges, count)
+        self._weigh_edges(h, edges, count)
+        return True
 
     def _paint_between(self, y, lines, left, right):
         """Paint the pixels between two edges in the rows from `y` on."""
@@ -308,42 +317,80 @@ class Coverage:
         self.touched_end[self.slot] = end
         self.dirty = self.dirty or first < end
 
-    def _count_edges(self, edges, count):
-        """Add the spans between edges that cross the present row of pixels."""
+    def _aim(self, edges, count):
+        """Prepare edges for `_count_edges`; return whether each runs through eight pixels at most of those in sight."""
         i: cython.int
-        k: cython.int
         n: cython.int = self.n
         inverse: cython.longlong = self.n_inverse
-        low: cython.longlong = self.low
-        wide: cython.longlong = self.high - low
-        base: cython.int = self.slot * self.columns
-        first: cython.int = self.touched_first[self.slot]
-        end: cython.int = self.touched_end[self.slot]
-        changes: cython.p_int = self.changes
-        sign: cython.int = -1
+        low: cython.longlong = self.surface.left * n
+        wide: cython.longlong = self.surface.right * n - low
+        if n > 15:
+            return False
         for i in range(count):
-            sign = -sign
             edge: cython.pointer[Edge] = edges[i]
             top: cython.longlong = edge.bound - low
             bottom: cython.longlong = place(edge, n - 1) - low
-            # Where the window cuts none, in one fixed-point number: its error is less than what `Edge` allows.
-            cut: cython.bint = min(top, bottom) < 0 or max(top, bottom) > wide
-            at: cython.longlong = 0 if cut else (top << _FIXED) + (edge.fraction >> (FRACTION - _FIXED))
-            step: cython.longlong = 0 if cut else (edge.step << _FIXED) + (edge.fraction_step >> (FRACTION - _FIXED))
-            left: cython.int = 0
+            left: cython.longlong = min(top, bottom)
+            right: cython.longlong = max(top, bottom)
+            if left >= 0 and right <= wide:
+                edge.at = (top << _FIXED) + (edge.fraction >> (FRACTION - _FIXED))
+                edge.pace = (edge.step << _FIXED) + (edge.fraction_step >> (FRACTION - _FIXED))
+            elif right <= 0 or left >= wide:
+                left = right = 0 if right <= 0 else wide
+                edge.at = left << _FIXED
+                edge.pace = 0
+            else:
+                return False
+            edge.pixel = cython.cast(cython.int, (left * inverse) >> 32)
+            edge.until = cython.cast(cython.int, ((right + n - 1) * inverse) >> 32)
+            if edge.until > edge.pixel + 8:
+                return False
+            edge.at -= cython.cast(cython.longlong, edge.pixel * n) << _FIXED
+        return True
+
+    def _count_edges(self, y, edges, count):
+        """Count and paint the spans of a row of pixels between edges that stay in order.
+
+        In bytes of a number, how much is covered of the eight pixels from where the present edge is first seen. What is
+        left of it no edge changes any more.
+        """
+        i: cython.int
+        k: cython.int
+        n: cython.int = self.n
+        left: cython.longlong = self.surface.left
+        before: cython.p_ulonglong = counts_before(n)
+        whole: cython.ulonglong = self.full * _ONES
+        # Behind all edges so far, and up to where they change something.
+        behind: cython.ulonglong = 0
+        covered: cython.ulonglong = 0
+        until: cython.int = 0
+        at: cython.int = 0
+        for i in range(count):
+            edge: cython.pointer[Edge] = edges[i]
+            if edge.pixel > at:
+                self._paint_counted(y, at, min(until, edge.pixel), covered)
+                if behind and until < edge.pixel:
+                    self.surface.span(y, left + max(at, until), left + edge.pixel)
+                k = 8 * (edge.pixel - at)
+                covered = behind if k >= 64 else ((covered >> k) | (behind << (64 - k))) & _ALL
+                at = edge.pixel
+            until = max(until, edge.until)
+            counts: cython.ulonglong = whole
+            x: cython.longlong = edge.at
             for k in range(n):
-                x: cython.longlong = min(max(place(edge, k) - low, 0), wide) if cut else at >> _FIXED
-                left = cython.cast(cython.int, (x * inverse) >> 32)
-                part: cython.int = sign * (cython.cast(cython.int, x) - left * n)
-                changes[base + left] += sign * n - part
-                changes[base + left + 1] += part
-                at += step
-            top = (min(max(top, 0), wide) * inverse) >> 32
-            first = min(first, left, cython.cast(cython.int, top))
-            end = max(end, left + 2, cython.cast(cython.int, top) + 2)
-        self.touched_first[self.slot] = first
-        self.touched_end[self.slot] = end
-        self.dirty = self.dirty or first < end
+                counts -= before[x >> _FIXED]
+                x += edge.pace
+            behind = whole - behind
+            covered = covered + counts if behind else covered - counts
+        self._paint_counted(y, at, until, covered)
+
+    def _paint_counted(self, y, first, end, counts):
+        """Paint pixels number `first` up to `end` of a row in sight, eight at most, by the bytes of `counts`."""
+        if first >= end:
+            return
+        if end - first < 8:
+            counts &= (_ONE << (8 * (end - first))) - 1
+        paint_eight(self.surface, y, self.surface.left + first, counts, self.full, self.full_inverse)
 
     def _weigh_edges(self, h, edges, count):
         """Add the spans between edges to all rows of pixels that the block reaches."""
@@ -531,3 +578,35 @@ def _add_four(
     changes[at + 1] = x
     changes[at + 2] = y
     changes[at + 3] = z
+
+
+# For n from 1 to 15 and g from 0 to 8 n, one after the other: how many of the first g sub-pixels of eight pixels each
+# pixel has, as the bytes of a number, the first pixel's the lowest. Counts of n sub-scanlines, added up, fit in.
+_COUNTS = cython.declare(cython.ulonglong[975])
+if not cython.compiled:
+    _COUNTS = [0] * 975
+
+
+@cython.cfunc
+@cython.exceptval(check=False)
+def _fill_counts() -> cython.void:
+    n: cython.int
+    g: cython.int
+    at: cython.int = 0
+    one: cython.ulonglong = 1
+    for n in range(1, 16):
+        counts: cython.ulonglong = 0
+        for g in range(8 * n + 1):
+            _COUNTS[at] = counts
+            if g < 8 * n:
+                counts += one << (8 * (g // n))
+            at += 1
+
+
+_fill_counts()
+
+
+def counts_before(n):
+    """The table of the counts before a sub-pixel, for n up to 15: see `_COUNTS`."""
+    at: cython.int = (4 * n + 1) * (min(n, 15) - 1)
+    return cython.address(_COUNTS[at]) if cython.compiled else _COUNTS[at:]

@@ -11,7 +11,7 @@ cdef void _sweep(
     Edge **sides, long long *spans,
 ) noexcept nogil
 cdef bint _stay_in_order(Edge **active, int crossing, int lines) noexcept nogil
-cdef void _take_block(
+cdef bint _take_block(
     Coverage coverage, Edge **active, int crossing, long long h, int lines, bint nonzero, Edge **sides
 ) noexcept nogil
 cdef void _take_unsteady_block(
@@ -20,6 +20,11 @@ cdef void _take_unsteady_block(
 cdef void _walk(Edge **active, int crossing, long long h, bint nonzero, Coverage coverage, int lines) noexcept nogil
 cdef bint _steady(Edge *edge, int lines) noexcept nogil
 cdef void _step(Edge *edge, long long lines) noexcept nogil
-cdef int _spans(Edge **active, int crossing, long long h, bint nonzero, long long *spans) noexcept nogil
+cdef void _take_row(
+    Coverage coverage, Edge **active, int crossing, long long h, bint nonzero, long long *spans
+) noexcept nogil
+cdef int _spans(
+    Edge **active, int crossing, long long h, bint nonzero, long long *spans, int count
+) noexcept nogil
 cdef void _put_in_order(Edge **active, int crossing) noexcept nogil
 cdef void _sort(Edge **active, int crossing) noexcept nogil

@@ -39,15 +39,15 @@ def polygon(coverage, points, ends, contours, nonzero):
     starting: cython.p_int
     if cython.compiled:
         room: cython.Py_ssize_t = total * (cython.sizeof(Edge) + 2 * cython.sizeof(cython.p_char))
-        room += (total + 2) * cython.sizeof(cython.longlong) + (bottom - top) * cython.sizeof(cython.int)
+        room += (n * total + 2) * cython.sizeof(cython.longlong) + (bottom - top) * cython.sizeof(cython.int)
         edges = cython.cast(cython.pointer(Edge), coverage.scratch(room))
         spans = cython.cast(cython.p_longlong, edges + total)
-        active = cython.cast(cython.pointer(cython.pointer(Edge)), spans + total + 2)
+        active = cython.cast(cython.pointer(cython.pointer(Edge)), spans + n * total + 2)
         sides = active + total
         starting = cython.cast(cython.p_int, sides + total)
     else:
         edges = [Edge() for _ in range(total)]
-        spans = [0] * (total + 2)
+        spans = [0] * (n * total + 2)
         active, sides = [None] * total, [None] * total
         starting = [0] * (bottom - top)
     if _collect(coverage, points, ends, contours, top, bottom, edges, starting):
@@ -152,15 +152,17 @@ def _sweep(coverage, top, bottom, nonzero, edges, starting, active, sides, spans
             # Aliased, a block is what the same two edges cross: triangles take a third less.
             lines += 1
             row += 1
-        if lines > 1 and latest <= begin and begin + lines <= soonest and _stay_in_order(active, crossing, lines):
-            _take_block(coverage, active, crossing, begin, lines, nonzero, sides)
+        steady: cython.bint = lines > 1 and latest <= begin and begin + lines <= soonest
+        steady = steady and _stay_in_order(active, crossing, lines)
+        if steady and _take_block(coverage, active, crossing, begin, lines, nonzero, sides):
             continue
-        if block > 1 and coverage.filter is not None:
+        if coverage.filter is not None:
             _take_unsteady_block(coverage, active, crossing, begin, lines, nonzero, sides)
             continue
-        for h in range(begin, begin + lines):
-            coverage.spans(h, spans, _spans(active, crossing, h, nonzero, spans) >> 1)
-            _put_in_order(active, crossing)
+        h = begin
+        while h < begin + lines:
+            _take_row(coverage, active, crossing, h, nonzero, spans)
+            h += block
 
 
 def _stay_in_order(active, crossing, lines):
@@ -168,10 +170,15 @@ def _stay_in_order(active, crossing, lines):
     i: cython.int
     k: cython.int
     last: cython.longlong = lines - 1
-    for i in range(1, crossing):
-        a: cython.pointer[Edge] = active[i - 1]
+    end: cython.longlong = 0
+    for i in range(crossing):
         b: cython.pointer[Edge] = active[i]
-        if place(a, last) < place(b, last) and a.bound < b.bound:
+        before: cython.longlong = end
+        end = place(b, last)
+        if i == 0:
+            continue
+        a: cython.pointer[Edge] = active[i - 1]
+        if before < end and a.bound < b.bound:
             continue
         for k in range(1, lines):
             if place(a, k) > place(b, k):
@@ -180,7 +187,10 @@ def _stay_in_order(active, crossing, lines):
 
 
 def _take_block(coverage, active, crossing, h, lines, nonzero, sides):
-    """Let edges run through a block of sub-scanlines from `h` on; those at which spans begin and end are its sides."""
+    """Let edges run through a block of sub-scanlines from `h` on; those at which spans begin and end are its sides.
+
+    Returns False where that has to be done line by line.
+    """
     i: cython.int
     count: cython.int = 0
     winding: cython.int = 0
@@ -190,11 +200,22 @@ def _take_block(coverage, active, crossing, h, lines, nonzero, sides):
             winding += active[i].winding
             sides[count] = active[i]
             count += outside or winding == 0
-        coverage.block_of_edges(h, lines, sides, count)
-    else:
-        coverage.block_of_edges(h, lines, active, crossing)
+    if not coverage.block_of_edges(h, lines, sides if nonzero else active, count if nonzero else crossing):
+        return False
     for i in range(crossing):
         _step(active[i], lines)
+    return True
+
+
+def _take_row(coverage, active, crossing, h, nonzero, spans):
+    """Take a row of pixels, the first sub-scanline of which is `h`, line by line."""
+    k: cython.longlong
+    count: cython.int = 0
+    n: cython.longlong = coverage.n
+    for k in range(n):
+        count = _spans(active, crossing, h + k, nonzero, spans, count)
+        _put_in_order(active, crossing)
+    coverage.row_of_spans(h // n, spans, count >> 1)
 
 
 def _take_unsteady_block(coverage, active, crossing, h, lines, nonzero, before):
@@ -254,10 +275,12 @@ def _step(edge, lines):
     edge.fraction &= (one << FRACTION) - 1
 
 
-def _spans(active, crossing, h, nonzero, spans):
-    """Write the ends of the spans of a sub-scanline, and let its edges step to the next one; return how many ends."""
+def _spans(active, crossing, h, nonzero, spans, count):
+    """Write the ends of the spans of a sub-scanline behind others; return how many there are now.
+
+    Its edges step to the next one.
+    """
     i: cython.int
-    count: cython.int = 0
     winding: cython.int = 0
     for i in range(crossing):
         edge: cython.pointer[Edge] = active[i]

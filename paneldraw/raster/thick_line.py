@@ -8,7 +8,7 @@ is inside if the inside lies to its right or, on a horizontal edge, below: recta
 import cython
 from cython.cimports.libc.math import sqrt
 from cython.cimports.paneldraw.raster.cone import FILTER_FULL, Profile, profile_of
-from cython.cimports.paneldraw.raster.coverage import Coverage
+from cython.cimports.paneldraw.raster.coverage import Coverage, counts_before
 from cython.cimports.paneldraw.raster.floors import floored
 from cython.cimports.paneldraw.raster.paint import inverse_of, meet, paint_eight
 from cython.cimports.paneldraw.raster.surface import CLEAR
@@ -169,7 +169,7 @@ def _sweep(coverage, top, bottom, at):
     # From the first sub-scanline of a row to the last one.
     side_turn: cython.longlong = (n - 1) * at.side_step
     turn: cython.longlong = side_turn - (n - 1) * at.end_step
-    before: cython.p_ulonglong = _counts_before(n)
+    before: cython.p_ulonglong = counts_before(n)
     y: cython.longlong
     for y in range(top, bottom):
         # Most rows are cut by the sides alone, visible, and no wider than the eight pixels that are counted at once in
@@ -233,41 +233,6 @@ def _row(coverage, y, at):
         at.back += at.end_step
         at.front += at.end_step
     coverage.row_of_spans(y, ends, n)
-
-
-# For n from 1 to 15 and g from 0 to 8 n, one after the other: how many of the first g sub-pixels of eight pixels each
-# pixel has, as the bytes of a number, the first pixel's the lowest. Counts of n sub-scanlines, added up, fit in.
-_COUNTS = cython.declare(cython.ulonglong[975])
-if not cython.compiled:
-    _COUNTS = [0] * 975
-
-
-@cython.cfunc
-@cython.exceptval(check=False)
-def _fill_counts() -> cython.void:
-    n: cython.int
-    g: cython.int
-    at: cython.int = 0
-    one: cython.ulonglong = 1
-    for n in range(1, 16):
-        counts: cython.ulonglong = 0
-        for g in range(8 * n + 1):
-            _COUNTS[at] = counts
-            if g < 8 * n:
-                counts += one << (8 * (g // n))
-            at += 1
-
-
-_fill_counts()
-
-
-@cython.cfunc
-@cython.nogil
-@cython.exceptval(check=False)
-def _counts_before(n: cython.int) -> cython.p_ulonglong:
-    """The table of the counts before a sub-pixel, for n up to 15: see `_COUNTS`."""
-    at: cython.int = (4 * n + 1) * (min(n, 15) - 1)
-    return cython.address(_COUNTS[at]) if cython.compiled else _COUNTS[at:]
 
 
 def _root_of_product(a, b):
