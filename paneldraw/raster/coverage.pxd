@@ -3,8 +3,8 @@ from paneldraw.raster.surface cimport Surface
 
 cdef enum:
     # The most sub-scanlines of a block, and the bits of a fraction of a sub-pixel: so many, added up, fit in 64 bits.
-    MOST = 16
-    FRACTION = 58
+    MOST = 128
+    FRACTION = 55
     # An edge that moves by no more sub-pixels from one sub-scanline to the next is weighed a block at a time: that is
     # off by at most 0.5 of 255, with a box filter by 1.2.
     STEEP = 8
@@ -26,8 +26,8 @@ cdef struct Edge:
     int turns
     long long kept
     long long kept_fraction
-    # In a row of pixels that is counted eight at a time: from which pixel to which one it runs, where it is from the
-    # first one's left side on, and how far it moves; sub-pixels with 36 bits behind the point.
+    # Where it stands in rows of pixels that are counted eight at a time, and how far it moves, in sub-pixels with 36
+    # bits behind the point; from which pixel to which one it runs there.
     int pixel
     int until
     long long at
@@ -83,10 +83,12 @@ cdef class Coverage:
     cdef void finish(self) noexcept nogil
     cdef void block_of_spans(self, long long h, long long *ends, int count) noexcept nogil
     cdef bint block_of_edges(self, long long h, int lines, Edge **edges, int count) noexcept nogil
-    cdef void _paint_between(self, long long y, int lines, Edge *left, Edge *right) noexcept nogil
+    cdef void _set_out(self, Edge **edges, int count) noexcept nogil
+    cdef void _paint_between(self, long long y, int rows, Edge *left, Edge *right) noexcept nogil
     cdef inline void _count(self, long long *ends, int count) noexcept nogil
-    cdef bint _aim(self, Edge **edges, int count) noexcept nogil
-    cdef void _count_edges(self, long long y, Edge **edges, int count) noexcept nogil
+    cdef bint _are_steep(self, Edge **edges, int count) noexcept nogil
+    cdef void _count_row(self, long long y, Edge **edges, int count) noexcept nogil
+    cdef inline unsigned long long _count_edge(self, Edge *edge, unsigned long long *before) noexcept nogil
     cdef inline void _paint_counted(self, long long y, int first, int end, unsigned long long counts) noexcept nogil
     cdef void _weigh_edges(self, long long h, Edge **edges, int count) noexcept nogil
     cdef inline void _look_up(self, long long h, int lines) noexcept nogil

@@ -32,7 +32,7 @@ _ONES = cython.declare(cython.ulonglong, 0x0101010101010101)
 _ALL = cython.declare(cython.ulonglong, 0xFFFFFFFFFFFFFFFF)
 
 if not cython.compiled:
-    MOST, FRACTION, STEEP = 16, 58, 8
+    MOST, FRACTION, STEEP = 128, 55, 8
     Edge = type("Edge", (), {})
 
     def place(edge, lines):
@@ -258,32 +258,46 @@ class Coverage:
     def block_of_edges(self, h, lines, edges, count):
         """Take the spans of `lines` sub-scanlines from `h` on that lie between straight edges, two by two.
 
-        That is a whole `block`; where pixels are not covered in part, any number up to `MOST`. Returns whether they
-        were taken: where spans are counted, edges may be too flat for it.
+        That is a whole `block`; where spans are not weighed, any number of blocks up to `MOST` sub-scanlines. Returns
+        whether they were taken: edges may be too flat for it.
         """
         i: cython.int
-        if not self.partial:
+        if self.filter is not None:
+            if h >= self.limit:
+                self._advance(h)
+            self._weigh_edges(h, edges, count)
+            return True
+        if self.partial and not self._are_steep(edges, count):
+            return False
+        self._set_out(edges, count)
+        if self.partial:
+            for i in range(lines // self.n):
+                self._count_row(h // self.n + i, edges, count)
+        else:
             for i in range(0, count, 2):
                 self._paint_between(h, lines, edges[i], edges[i + 1])
-            return True
-        if self.filter is None:
-            if not self._aim(edges, count):
-                return False
-            self._count_edges(h // self.n, edges, count)
-            return True
-        if h >= self.limit:
-            self._advance(h)
-        self._weigh_edges(h, edges, count)
         return True
 
-    def _paint_between(self, y, lines, left, right):
+    def _set_out(self, edges, count):
+        """Let edges set out on a block, in one fixed-point number: its error there is less than what `Edge` allows."""
+        i: cython.int
+        left: cython.longlong = self.surface.left * self.n
+        for i in range(count):
+            edge: cython.pointer[Edge] = edges[i]
+            edge.at = ((edge.bound - left) << _FIXED) + (edge.fraction >> (FRACTION - _FIXED))
+            edge.pace = (edge.step << _FIXED) + (edge.fraction_step >> (FRACTION - _FIXED))
+
+    def _paint_between(self, y, rows, left, right):
         """Paint the pixels between two edges in the rows from `y` on."""
         k: cython.int
-        for k in range(lines):
-            a: cython.longlong = max(place(left, k), self.surface.left)
-            b: cython.longlong = min(place(right, k), self.surface.right)
-            if a < b:
-                self.surface.span(y + k, a, b)
+        x: cython.longlong = self.surface.left
+        first: cython.longlong = left.at
+        end: cython.longlong = right.at
+        for k in range(rows):
+            if (first >> _FIXED) < (end >> _FIXED):
+                self.surface.span(y + k, x + (first >> _FIXED), x + (end >> _FIXED))
+            first += left.pace
+            end += right.pace
 
     def _count(self, ends, count):
         """Add spans of the present row of pixels: a sub-pixel is 1 in its own pixel."""
@@ -317,48 +331,26 @@ class Coverage:
         self.touched_end[self.slot] = end
         self.dirty = self.dirty or first < end
 
-    def _aim(self, edges, count):
-        """Prepare edges for `_count_edges`; return whether each runs through eight pixels at most of those in sight."""
+    def _are_steep(self, edges, count):
+        """Whether no edge runs through more than eight pixels of a row, which `_count_row` takes at once."""
         i: cython.int
         n: cython.int = self.n
-        inverse: cython.longlong = self.n_inverse
-        low: cython.longlong = self.surface.left * n
-        wide: cython.longlong = self.surface.right * n - low
-        if n > 15:
-            return False
+        steep: cython.longlong = (7 * n - 1) // (n - 1)
         for i in range(count):
-            edge: cython.pointer[Edge] = edges[i]
-            top: cython.longlong = edge.bound - low
-            bottom: cython.longlong = place(edge, n - 1) - low
-            left: cython.longlong = min(top, bottom)
-            right: cython.longlong = max(top, bottom)
-            if left >= 0 and right <= wide:
-                edge.at = (top << _FIXED) + (edge.fraction >> (FRACTION - _FIXED))
-                edge.pace = (edge.step << _FIXED) + (edge.fraction_step >> (FRACTION - _FIXED))
-            elif right <= 0 or left >= wide:
-                left = right = 0 if right <= 0 else wide
-                edge.at = left << _FIXED
-                edge.pace = 0
-            else:
+            if not -steep <= edges[i].step < steep:
                 return False
-            edge.pixel = cython.cast(cython.int, (left * inverse) >> 32)
-            edge.until = cython.cast(cython.int, ((right + n - 1) * inverse) >> 32)
-            if edge.until > edge.pixel + 8:
-                return False
-            edge.at -= cython.cast(cython.longlong, edge.pixel * n) << _FIXED
-        return True
+        return n < 16
 
-    def _count_edges(self, y, edges, count):
-        """Count and paint the spans of a row of pixels between edges that stay in order.
+    def _count_row(self, y, edges, count):
+        """Count and paint a row of pixels, in which edges move on to the next one.
 
         In bytes of a number, how much is covered of the eight pixels from where the present edge is first seen. What is
         left of it no edge changes any more.
         """
         i: cython.int
-        k: cython.int
-        n: cython.int = self.n
+        bits: cython.int
         left: cython.longlong = self.surface.left
-        before: cython.p_ulonglong = counts_before(n)
+        before: cython.p_ulonglong = counts_before(self.n)
         whole: cython.ulonglong = self.full * _ONES
         # Behind all edges so far, and up to where they change something.
         behind: cython.ulonglong = 0
@@ -367,22 +359,47 @@ class Coverage:
         at: cython.int = 0
         for i in range(count):
             edge: cython.pointer[Edge] = edges[i]
+            counts: cython.ulonglong = whole - self._count_edge(edge, before)
             if edge.pixel > at:
                 self._paint_counted(y, at, min(until, edge.pixel), covered)
                 if behind and until < edge.pixel:
                     self.surface.span(y, left + max(at, until), left + edge.pixel)
-                k = 8 * (edge.pixel - at)
-                covered = behind if k >= 64 else ((covered >> k) | (behind << (64 - k))) & _ALL
+                bits = 8 * (edge.pixel - at)
+                covered = behind if bits >= 64 else ((covered >> bits) | (behind << (64 - bits))) & _ALL
                 at = edge.pixel
             until = max(until, edge.until)
-            counts: cython.ulonglong = whole
-            x: cython.longlong = edge.at
-            for k in range(n):
-                counts -= before[x >> _FIXED]
-                x += edge.pace
             behind = whole - behind
             covered = covered + counts if behind else covered - counts
         self._paint_counted(y, at, until, covered)
+
+    def _count_edge(self, edge, before):
+        """Count what is left of an edge in a row of pixels, eight of them from where it is first seen."""
+        _: cython.int
+        n: cython.int = self.n
+        x: cython.longlong = edge.at
+        pace: cython.longlong = edge.pace
+        last: cython.longlong = (x + (n - 1) * pace) >> _FIXED
+        left: cython.longlong = min(x >> _FIXED, last)
+        right: cython.longlong = max(x >> _FIXED, last)
+        wide: cython.longlong = (self.surface.right - self.surface.left) * n
+        cut: cython.bint = left < 0 or right > wide
+        if cut:
+            left = min(max(left, 0), wide)
+            right = min(max(right, 0), wide)
+        edge.pixel = cython.cast(cython.int, (left * self.n_inverse) >> 32)
+        edge.until = cython.cast(cython.int, ((right + n - 1) * self.n_inverse) >> 32)
+        edge.at = x + n * pace
+        first: cython.longlong = edge.pixel * n
+        counts: cython.ulonglong = 0
+        if cut:
+            for _ in range(n):
+                counts += before[min(max(x >> _FIXED, 0), wide) - first]
+                x += pace
+        else:
+            for _ in range(n):
+                counts += before[(x >> _FIXED) - first]
+                x += pace
+        return counts
 
     def _paint_counted(self, y, first, end, counts):
         """Paint pixels number `first` up to `end` of a row in sight, eight at most, by the bytes of `counts`."""

@@ -84,23 +84,33 @@ def paint_coverage(surface, y, x, changes, first, count, shift, full, inverse):
         changes[i] = 0
         i += 1
         covered = (total + half) >> shift
-        if i < end and changes[i] != 0:
-            # A run of one: rows of lines and edges take a third less time.
-            at = row + start
+        if i < end and changes[i] == 0:
+            i = _end_of_zeros(changes, i, end)
             if covered >= full or (top == 1 and 2 * covered >= full):
-                pixels[at] = surface.becomes[pixels[at]]
+                surface.span(y, x + start - first, x + i - first)
             elif covered > 0 and top > 1:
-                pixels[at] = meet(pixels[at], level, covered, full, inverse, op, top)
+                for at in range(row + start, row + i):
+                    pixels[at] = meet(pixels[at], level, covered, full, inverse, op, top)
             continue
-        while i + 4 <= end and (changes[i] | changes[i + 1] | changes[i + 2] | changes[i + 3]) == 0:
-            i += 4
-        while i < end and changes[i] == 0:
-            i += 1
+        # A run of one: rows of lines and edges take a third less time.
+        at = row + start
         if covered >= full or (top == 1 and 2 * covered >= full):
-            surface.span(y, x + start - first, x + i - first)
+            pixels[at] = surface.becomes[pixels[at]]
         elif covered > 0 and top > 1:
-            for at in range(row + start, row + i):
-                pixels[at] = meet(pixels[at], level, covered, full, inverse, op, top)
+            pixels[at] = meet(pixels[at], level, covered, full, inverse, op, top)
+
+
+@cython.cfunc
+@cython.inline
+@cython.nogil
+@cython.exceptval(check=False)
+def _end_of_zeros(changes: cython.p_int, i: cython.Py_ssize_t, end: cython.Py_ssize_t) -> cython.Py_ssize_t:
+    """Where zeros end that go on from number `i` on."""
+    while i + 4 <= end and (changes[i] | changes[i + 1] | changes[i + 2] | changes[i + 3]) == 0:
+        i += 4
+    while i < end and changes[i] == 0:
+        i += 1
+    return i
 
 
 def paint_eight(surface, y, x, counts, full, inverse):

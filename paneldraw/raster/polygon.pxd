@@ -10,6 +10,7 @@ cdef void _sweep(
     Coverage coverage, long long top, long long bottom, bint nonzero, Edge *edges, int *starting, Edge **active,
     Edge **sides, long long *spans,
 ) noexcept nogil
+cdef int _rows_in_order(Edge **active, int crossing, int lines, int rows) noexcept nogil
 cdef bint _stay_in_order(Edge **active, int crossing, int lines) noexcept nogil
 cdef bint _take_block(
     Coverage coverage, Edge **active, int crossing, long long h, int lines, bint nonzero, Edge **sides

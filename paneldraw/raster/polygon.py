@@ -117,7 +117,6 @@ def _place(coverage, edge, x1, y1, dx, dy):
 def _sweep(coverage, top, bottom, nonzero, edges, starting, active, sides, spans):
     """Keep the edges of the present block in the order of their crossings, between which spans lie."""
     row: cython.longlong
-    h: cython.longlong
     block: cython.longlong = coverage.block
     crossing: cython.int = 0
     next: cython.int
@@ -147,22 +146,30 @@ def _sweep(coverage, top, bottom, nonzero, edges, starting, active, sides, spans
             next = active[crossing].next
             crossing += 1
         _put_in_order(active, crossing)
-        row += 1
-        while block == 1 and crossing == 2 and lines < MOST and begin + lines < soonest and starting[row - top] < 0:
-            # Aliased, a block is what the same two edges cross: triangles take a third less.
-            lines += 1
-            row += 1
-        steady: cython.bint = lines > 1 and latest <= begin and begin + lines <= soonest
-        steady = steady and _stay_in_order(active, crossing, lines)
-        if steady and _take_block(coverage, active, crossing, begin, lines, nonzero, sides):
+        rows: cython.int = 0
+        if latest <= begin and begin + block <= soonest and (block > 1 or crossing == 2):
+            # What the same edges cross in the same order is taken at once: aliased triangles take a third less. With
+            # more edges such blocks are short, and gain nothing there.
+            most: cython.longlong = min(bottom - row, min(soonest - begin, MOST) // block)
+            rows = 1
+            while rows < most and coverage.filter is None and starting[row + rows - top] < 0:
+                rows += 1
+            rows = _rows_in_order(active, crossing, lines, rows)
+        if rows > 0 and _take_block(coverage, active, crossing, begin, rows * lines, nonzero, sides):
+            row += rows
             continue
+        row += 1
         if coverage.filter is not None:
             _take_unsteady_block(coverage, active, crossing, begin, lines, nonzero, sides)
-            continue
-        h = begin
-        while h < begin + lines:
-            _take_row(coverage, active, crossing, h, nonzero, spans)
-            h += block
+        else:
+            _take_row(coverage, active, crossing, begin, nonzero, spans)
+
+
+def _rows_in_order(active, crossing, lines, rows):
+    """In how many of the next rows, of so many sub-scanlines each, edges stay in order: so many, or half of it, ..."""
+    while rows * lines > 1 and not _stay_in_order(active, crossing, rows * lines):
+        rows >>= 1
+    return rows
 
 
 def _stay_in_order(active, crossing, lines):
@@ -178,11 +185,19 @@ def _stay_in_order(active, crossing, lines):
         if i == 0:
             continue
         a: cython.pointer[Edge] = active[i - 1]
-        if before < end and a.bound < b.bound:
-            continue
-        for k in range(1, lines):
-            if place(a, k) > place(b, k):
+        if before > end:
+            return False
+        # Between two sub-scanlines with sub-pixels between the edges there are sub-pixels between them everywhere.
+        above: cython.bint = a.bound < b.bound
+        k = 1
+        while k < lines and not (above and before < end):
+            at: cython.int = lines - 1 - k if above else k
+            gap: cython.longlong = place(b, at) - place(a, at)
+            if gap < 0:
                 return False
+            if gap > 0 and (above or before < end):
+                break
+            k += 1
     return True
 
 
@@ -311,7 +326,7 @@ def _sort(active, crossing):
     gap: cython.int = 1
     i: cython.int
     j: cython.int
-    while 9 * gap < crossing:
+    while 36 * gap < crossing:
         gap = 3 * gap + 1
     while gap > 0:
         for i in range(gap, crossing):
