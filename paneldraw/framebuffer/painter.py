@@ -531,7 +531,7 @@ class Painter:
         contours.begin()
         for contour in shape:
             for x, y in clip.pairs(clip.cut_polygon(contour)):
-                contours.add(x, y)
+                contours.add(x, y, 0, 0)
             contours.close()
         self._fill_contours(style, nonzero)
 

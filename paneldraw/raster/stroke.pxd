@@ -12,7 +12,7 @@ cdef class Contours:
     cdef bint far
 
     cdef void begin(self)
-    cdef object add(self, double x, double y)
+    cdef object add(self, double x, double y, double dx, double dy)
     cdef object close(self)
 
 cdef class Stroke:
@@ -38,6 +38,8 @@ cdef class Stroke:
     cdef (double, double) _seen(self, double *points, Py_ssize_t count, Py_ssize_t i, int cap) noexcept
     cdef bint _is_corner_seen(self, double *points, Py_ssize_t i, double ux, double uy) noexcept
     cdef bint _covers_all(self, double x, double y) noexcept
+    cdef list _without_closed_gaps(self, list dash, int cap, double whole)
+    cdef object _first_corner(self, double *points, Py_ssize_t count)
     cdef object dashes(self, double *points, Py_ssize_t count, bint closed, int cap, list dash, double distance)
 
 cdef class Way:

@@ -22,6 +22,9 @@ _PI = cython.declare(cython.double, 3.141592653589793)
 # How far an arc may be from its chords, and how far round caps may be from closing a gap.
 _FLAT = cython.declare(cython.double, 0.25)
 
+# Added and taken away again, it leaves a number rounded to whole 65536ths, to the even ones if it is halfway.
+_ROUNDING = cython.declare(cython.double, 1.5 * (1 << 36))
+
 # Longer than any path.
 _ENDLESS = cython.declare(cython.double, 1e30)
 
@@ -47,12 +50,15 @@ class Contours:
             self.points = []
             self.ends = []
 
-    def add(self, x, y):
-        """Add a point to the open contour, rounded to whole 256ths.
+    def add(self, x, y, dx, dy):
+        """Add the point (x + dx, y + dy) to the open contour, rounded to whole 256ths.
 
         Halves go to the even number: two points that lie symmetrically about a whole one still do so afterwards, and
-        the edge between them runs through it, where other pieces meet this one.
+        the edge between them runs through it, where other pieces meet this one. The vector is rounded first, so that
+        sums are exact and a shape that is moved by whole pixels stays the same.
         """
+        x += _rounded(dx)
+        y += _rounded(dy)
         if abs(x) > _LIMIT or abs(y) > _LIMIT:
             self.far = True
         if cython.compiled:
@@ -78,7 +84,7 @@ class Contours:
                 del self.points[2 * start :]
             corners = cut_polygon(corners)
             for i in range(0, len(corners), 2):
-                self.add(corners[i], corners[i + 1])
+                self.add(corners[i], corners[i + 1], 0, 0)
         j: cython.Py_ssize_t = self.count - 1
         area: cython.longlong = 0
         points: cython.p_longlong = self.points
@@ -166,17 +172,17 @@ class Stroke:
     def _segment(self, x1, y1, x2, y2, start, end):
         """Add what is around a segment between its ends, which lie square to the directions `start` and `end`."""
         half: cython.double = self.half
-        self.contours.add(x1 - start[1] * half, y1 + start[0] * half)
-        self.contours.add(x1 + start[1] * half, y1 - start[0] * half)
-        self.contours.add(x2 + end[1] * half, y2 - end[0] * half)
-        self.contours.add(x2 - end[1] * half, y2 + end[0] * half)
+        self.contours.add(x1, y1, -start[1] * half, start[0] * half)
+        self.contours.add(x1, y1, start[1] * half, -start[0] * half)
+        self.contours.add(x2, y2, end[1] * half, -end[0] * half)
+        self.contours.add(x2, y2, -end[1] * half, end[0] * half)
         self.contours.close()
 
     def _cap(self, x, y, ux, uy, cap):
         """Add what a cap adds beyond an end point, in the direction (ux, uy)."""
         half: cython.double = self.half
         if cap == _SQUARE:
-            self._segment(x, y, x + ux * half, y + uy * half, (ux, uy), (ux, uy))
+            self._segment(x, y, x + _rounded(ux * half), y + _rounded(uy * half), (ux, uy), (ux, uy))
         elif cap == _ROUND:
             self._arc(x, y, uy * half, -ux * half, -uy * half, ux * half, _PI)
 
@@ -189,18 +195,18 @@ class Stroke:
         if self.around or (cross == 0 and dot > 0):
             return
         vx, vy, ux, uy = vx * outer, vy * outer, ux * outer, uy * outer
-        contours.add(x, y)
+        contours.add(x, y, 0, 0)
         if self.join == 1:
             if cross > 0:
                 self._arc(x, y, vy, -vx, uy, -ux, atan2(abs(cross), dot))
             else:
                 self._arc(x, y, uy, -ux, vy, -vx, atan2(abs(cross), dot))
             return
-        contours.add(x + vy, y - vx)
+        contours.add(x, y, vy, -vx)
         # The miter is 1 / cos(angle / 2) half widths long; up to 4 of them it is drawn.
         if self.join == 0 and 8 * (1 + dot) >= 1:
-            contours.add(x + (vy + uy) / (1 + dot), y - (vx + ux) / (1 + dot))
-        contours.add(x + uy, y - ux)
+            contours.add(x, y, (vy + uy) / (1 + dot), -(vx + ux) / (1 + dot))
+        contours.add(x, y, uy, -ux)
         contours.close()
 
     def _arc(self, x, y, dx, dy, ex, ey, angle):
@@ -216,18 +222,20 @@ class Stroke:
         if radius > 2 * _FLAT:
             steps = int(ceil(angle / (2 * acos(max(0.5, 1 - _FLAT / radius)))))
         while i < steps:
-            px, py = _turned(x, y, dx, dy, angle * i / steps)
-            contours.add(px, py)
+            px, py = _turned(dx, dy, angle * i / steps)
+            contours.add(x, y, px, py)
+            px, py = x + px, y + py
             jump = 1
             # What cannot be seen is left out, by steps that are as large as it is.
             while not self._is_seen(px, px, py, py, 0) and i % (2 * jump) == 0 and i + 2 * jump <= steps:
-                qx, qy = _turned(x, y, dx, dy, angle * (i + 2 * jump) / steps)
+                qx, qy = _turned(dx, dy, angle * (i + 2 * jump) / steps)
+                qx, qy = x + qx, y + qy
                 rise: cython.double = radius * (1 - cos(angle * jump / steps))
                 if self._is_seen(min(px, qx), max(px, qx), min(py, qy), max(py, qy), rise):
                     break
                 jump *= 2
             i += jump
-        contours.add(x + ex, y + ey)
+        contours.add(x, y, ex, ey)
         contours.close()
 
     def _is_seen(self, left, right, top, bottom, margin):
@@ -297,9 +305,7 @@ class Stroke:
         be seen are left out.
         """
         whole: cython.double = _whole_length(points, count) + distance
-        if cap == _ROUND and max(dash[1::2]) ** 2 < 8 * _FLAT * self.half:
-            # The caps close every gap.
-            dash = [_last_end(whole, dash), _ENDLESS]
+        dash = self._without_closed_gaps(dash, cap, whole)
         way: Way = Way()
         way.begin(points, count)
         view: Way = Way()
@@ -309,9 +315,7 @@ class Stroke:
         last_cap: cython.int = cap
         if closed and distance == 0 and _last_end(whole, dash) >= whole:
             # The last piece goes on into the first one.
-            vx, vy = _unit_vector(points, count - 2, count - 1)
-            ux, uy = _unit_vector(points, 0, 1)
-            self._corner(points[0], points[1], vx, vy, ux, uy)
+            self._first_corner(points, count)
             first_cap = last_cap = _BUTT
         stops: list = [0.0, *_running_sum(dash)]
         period: cython.double = sum(dash)
@@ -339,6 +343,18 @@ class Stroke:
                 return
             if count > 1:
                 self.path(way.cut, count, False, first_cap if start <= 0 else inner, last_cap if way.ended else inner)
+
+    def _without_closed_gaps(self, dash, cap, whole):
+        """The same dash pattern, or one long dash if round caps close every gap of a path as long as `whole`."""
+        if cap == _ROUND and max(dash[1::2]) ** 2 < 8 * _FLAT * self.half:
+            return [_last_end(whole, dash), _ENDLESS]
+        return dash
+
+    def _first_corner(self, points, count):
+        """Join the end of a closed path to its beginning."""
+        vx, vy = _unit_vector(points, count - 2, count - 1)
+        ux, uy = _unit_vector(points, 0, 1)
+        self._corner(points[0], points[1], vx, vy, ux, uy)
 
 
 @cython.final
@@ -430,8 +446,8 @@ def arc_path(x, y, radius, start, swept):
     points: cython.p_double = doubles(memory, 0)
     for i in range(count):
         angle: cython.double = start * (_PI / 180) + turn * i / steps
-        points[2 * i] = x + radius * cos(angle)
-        points[2 * i + 1] = y + radius * sin(angle)
+        points[2 * i] = x + _rounded(radius * cos(angle))
+        points[2 * i + 1] = y + _rounded(radius * sin(angle))
     return memory
 
 
@@ -474,19 +490,25 @@ def _last_end(length: cython.double, dash: list) -> cython.double:
 
 @cython.cfunc
 @cython.inline
-def _turned(
-    x: cython.double, y: cython.double, dx: cython.double, dy: cython.double, angle: cython.double
-) -> tuple[cython.double, cython.double]:
-    """The end of a vector from (x, y) that is turned clockwise."""
-    return x + dx * cos(angle) - dy * sin(angle), y + dx * sin(angle) + dy * cos(angle)
+def _turned(dx: cython.double, dy: cython.double, angle: cython.double) -> tuple[cython.double, cython.double]:
+    """A vector turned clockwise."""
+    return dx * cos(angle) - dy * sin(angle), dx * sin(angle) + dy * cos(angle)
+
+
+@cython.cfunc
+@cython.inline
+@cython.exceptval(check=False)
+def _rounded(length: cython.double) -> cython.double:
+    """A length rounded to a 65536th, which points on the square can be moved by without an error."""
+    return (length + _ROUNDING) - _ROUNDING
 
 
 @cython.cfunc
 def _at(points: cython.p_double, i: cython.Py_ssize_t, distance: cython.double, to: cython.p_double):
     """Write the point at a distance from point i toward the next."""
     share: cython.double = distance / _length(points, i, i + 1)
-    to[0] = points[2 * i] + (points[2 * i + 2] - points[2 * i]) * share
-    to[1] = points[2 * i + 1] + (points[2 * i + 3] - points[2 * i + 1]) * share
+    to[0] = points[2 * i] + _rounded((points[2 * i + 2] - points[2 * i]) * share)
+    to[1] = points[2 * i + 1] + _rounded((points[2 * i + 3] - points[2 * i + 1]) * share)
 
 
 def _running_sum(numbers):

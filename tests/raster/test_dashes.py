@@ -152,6 +152,23 @@ def test_thick_dashes_from_far_away_keep_time(package, distance, direction, poin
     assert (counts <= most).all()
 
 
+@given(
+    st.lists(st.tuples(st.integers(-15, 90), st.integers(-10, 60)), min_size=2, max_size=6),
+    st.lists(st.sampled_from([1, 1.5, 3.3, 7]), min_size=1, max_size=3),
+    st.sampled_from([2.5, 9.7]),
+    st.sampled_from(["butt", "round"]),
+    st.tuples(st.integers(0, 40), st.integers(0, 9)),
+)
+@example([(0, 39), (20, 24), (83, 22), (25, -9), (80, 58)], [1], 9.7, "butt", (39, 5))
+def test_dashes_of_a_path_that_is_moved_by_whole_pixels_move_with_it(package, points, dash, width, cap, by):
+    """Where a dash ends is measured from the corner before it, not from (0, 0)."""
+    alone = package.Framebuffer(64, 48)
+    alone.polyline(points, dash=dash, width=width, cap=cap)
+    moved = package.Framebuffer(104, 57)
+    moved.polyline([(x + by[0], y + by[1]) for x, y in points], dash=dash, width=width, cap=cap)
+    assert (moved.view(*by, 64, 48).pixels == alone.pixels).all()
+
+
 @pytest.mark.parametrize("cap", ["butt", "square", "round"])
 @pytest.mark.parametrize(
     "width", [1, 2.5, 300, *(pytest.param(width, marks=pytest.mark.thorough) for width in (2**17, 2**40))]
