@@ -20,6 +20,7 @@ from cython.cimports.paneldraw.framebuffer.arguments import (
     level,
     near_pixel,
     points_of,
+    quick,
 )
 from cython.cimports.paneldraw.raster.blit import block
 from cython.cimports.paneldraw.raster.circle import arc, circle, ellipse, round_rect, sector
@@ -54,6 +55,7 @@ _BUTT = cython.declare(cython.int, CAPS["butt"])
 _SQUARE = cython.declare(cython.int, CAPS["square"])
 _ROUND = cython.declare(cython.int, CAPS["round"])
 _WIDEST = cython.declare(cython.longlong, clip.REACH * 256)
+_REACH = cython.declare(cython.longlong, clip.REACH)
 
 # The length of the vectors that say where a far turn begins and ends: as exact as floating-point numbers are.
 _FAR_UNIT = 1 << 60
@@ -218,17 +220,23 @@ class Painter:
 
     def run(self, x, y, length, across, c, op):
         """Paint a row of pixels from (x, y) on, or a column of them."""
-        left: cython.longlong = near_pixel("x", x)
-        top: cython.longlong = near_pixel("y", y)
-        count: cython.longlong = extent("w" if across else "h", length, 1)
-        if count == FAR or left == -clip.REACH or top == -clip.REACH:
+        left: cython.longlong = quick(x)
+        top: cython.longlong = quick(y)
+        count: cython.longlong = quick(length)
+        if left == FAR or top == FAR or count == FAR or count < 0:
+            left, top = near_pixel("x", x), near_pixel("y", y)
+            count = extent("w" if across else "h", length, 1)
+        if count == FAR or left == -_REACH or top == -_REACH:
             # It may begin out of reach and lead into the window.
             begin = whole("x", x) if across else whole("y", y)
             count = min(max(begin + whole("w", length), -clip.REACH), clip.REACH) - (left if across else top)
         right: cython.longlong = left + (count if across else 1)
         bottom: cython.longlong = top + (1 if across else count)
         operation: cython.int = OVER if is_word(op, "over") else choice("op", op, OPS)
-        block(self.surface, left, top, right, bottom, level(self.surface, c), operation)
+        color: cython.longlong = quick(c)
+        if not 0 <= color <= self.surface.max_level:
+            color = level(self.surface, c)
+        block(self.surface, left, top, right, bottom, cython.cast(cython.int, color), operation)
 
     def segment(self, x1, y1, x2, y2, style, dda):
         """Draw a line: in whole pixels if it is thin, else in 256ths."""

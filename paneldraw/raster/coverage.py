@@ -279,7 +279,7 @@ class Coverage:
         return True
 
     def _set_out(self, edges, count):
-        """Let edges set out on a block, in one fixed-point number: its error there is less than what `Edge` allows."""
+        """Let edges set out on a block, in one fixed-point number: so many errors of it are less than allowed."""
         i: cython.int
         left: cython.longlong = self.surface.left * self.n
         for i in range(count):

@@ -228,8 +228,9 @@ def _take_row(coverage, active, crossing, h, nonzero, spans):
     count: cython.int = 0
     n: cython.longlong = coverage.n
     for k in range(n):
+        if k > 0:
+            _put_in_order(active, crossing)
         count = _spans(active, crossing, h + k, nonzero, spans, count)
-        _put_in_order(active, crossing)
     coverage.row_of_spans(h // n, spans, count >> 1)
 
 
