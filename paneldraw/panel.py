@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import errno
 import operator
 import os
 import sys
@@ -11,7 +10,7 @@ import threading
 import time
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
-from typing import Any, Final, Literal, NamedTuple, TypeVar
+from typing import Any, Final, Literal, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -19,18 +18,15 @@ import numpy.typing as npt
 from paneldraw import urls
 from paneldraw.care import Care
 from paneldraw.controllers import BUSES, CHIPS, Controller, features
-from paneldraw.controllers.packing import packer
-from paneldraw.errors import PanelError, PanelTimeoutError, TransportError, did_you_mean
+from paneldraw.driver import Driver
+from paneldraw.errors import PanelError, PanelTimeoutError, did_you_mean
 from paneldraw.framebuffer import Framebuffer, pictures
 from paneldraw.leaving import arrange, follow
 from paneldraw.pacing import Frames
 from paneldraw.sender import Sender
-from paneldraw.transports import I2CTransport, Plan, SerialTransport, SPITransport, Transport
-from paneldraw.transports.synced import SyncedTransport
-from paneldraw.update import RegisterPlanner, planner_for
+from paneldraw.transports import I2CTransport, SerialTransport, SPITransport, Transport
 
 Levels = npt.NDArray[np.uint8]
-T = TypeVar("T")
 OnClose = Literal["keep", "clear", "off"]
 Updates = Literal["least", "plain", "whole"]
 
@@ -41,11 +37,6 @@ _WIRING: Final = (
     *("order", "first_block", "block_rotation", "mirror_blocks", "board"),
 )
 """What a simulated module is wired with, beside a driver that believes it."""
-_RETRIES: Final = 6
-_PATIENCE: Final = 0.02
-"""So many times, and about so many seconds, a fault is answered by trying again."""
-_LOOK: Final = 1.0
-"""Seconds between two looks at whether the panel lost its power."""
 
 
 class Report(NamedTuple):
@@ -66,16 +57,6 @@ class Report(NamedTuple):
     def unchanged(self) -> bool:
         """Whether the panel already showed this picture, so that nothing was sent."""
         return self.changed_bytes == 0 and not self.queued
-
-
-class Sent(NamedTuple):
-    """What some commands took."""
-
-    wire_bytes: int
-    messages: int
-
-
-_NOTHING: Final = Sent(0, 0)
 
 
 @dataclass(slots=True)
@@ -185,8 +166,7 @@ class Panel:
             self.rotate = rotate
             _check_on_close(on_close)
             with self._lock:
-                self._do(self._restore)
-                self._asked = _NOTHING
+                self._driver.restore()
         except BaseException:
             self._closed = True
             transport.close()
@@ -219,27 +199,8 @@ class Panel:
         self._closed = False
         self._foreign = 0  # the process that the panel belongs to, in a forked child
         self._sender: Sender | None = None
-        self._refresh = refresh
-        self._wire = SyncedTransport(transport) if controller.synced else transport
-        self._planner = planner_for(controller, self._wire.cost, updates)
-        able = controller.inverse is not None and not (controller.mirror_x or controller.mirror_y)
-        self._pack = packer(controller) if able and controller.bands == 1 else None
-        self._contrast = None if contrast is None else _checked_contrast(controller, contrast)
-        self._drive: tuple[bytes, ...] = ()
-        self._kept: list[bytes] = []
-        self._effect, self._effect_lights = b"", False
-        self._stirred = self._scrolling = False  # whether the chip moved its RAM, and whether it still does
-        self._unsure: npt.NDArray[np.bool_] | None = None  # bytes of RAM that single steps of a scroll brought in
-        self._settled = 0.0  # when such a step is over
-        self._all_on = False
-        self._inverted = False
-        self._asleep = False
-        self._ready = False  # the chip took its init, and nothing went wrong since
-        self._lit = False
-        self._shown = False
-        self._watched = False  # whether the chip answers its status right
-        self._looked = self._started = 0.0
-        self._asked = _NOTHING  # what reads cost that no report has counted
+        level = None if contrast is None else _checked_contrast(controller, contrast)
+        self._driver: Driver = Driver(controller, transport, self.stats, updates, level, refresh)
         self._own: Framebuffer | None = None
         self._last: tuple[Levels, int] = (np.zeros((0, 0), np.uint8), 0)  # the last picture, where it needs care
 
@@ -411,9 +372,8 @@ class Panel:
 
     def contrast(self, level: int) -> None:
         """Set the brightness of lit pixels, 0 to 255."""
-        level = _checked_contrast(self.controller, level)
-        self._contrast = level
-        self._change(lambda: self._brightness())
+        self._driver.contrast = _checked_contrast(self.controller, level)
+        self._change(self._driver.brightness)
 
     def dim(self, level: int) -> None:
         """Set the brightness by contrast, precharge and COM voltage together: darker than contrast alone can.
@@ -431,9 +391,10 @@ class Panel:
         """
         level = _checked_contrast(self.controller, level)
         steps = self.controller.drive[1:]
-        self._contrast = max(0, 2 * level - 255) if steps else level
-        self._drive = self.controller.drive[max(0, (127 - level) * len(steps) // 128 + 1)] if steps else ()
-        self._change(lambda: self._brightness())
+        driver = self._driver
+        driver.contrast = max(0, 2 * level - 255) if steps else level
+        driver.drive = self.controller.drive[max(0, (127 - level) * len(steps) // 128 + 1)] if steps else ()
+        self._change(driver.brightness)
 
     def command(self, command: bytes, *, keep: bool = False) -> None:
         """Send a command that the chip's record does not know, with its arguments.
@@ -465,12 +426,12 @@ class Panel:
             size = self.controller.registers.command_bytes
             raise ValueError(f"command must be of {size} bytes, or several of them, not {sent.hex(' ').upper()}")
         if keep:
-            self._kept.append(sent)
+            self._driver.kept.append(sent)
         self._change(lambda: (sent,))
 
     def invert(self, inverted: bool = True) -> None:
         """Show lit pixels dark and dark ones lit, or with False as they are."""
-        self._change(lambda: self._inversion(bool(inverted)))
+        self._change(lambda: self._driver.invert(bool(inverted)))
 
     def all_on(self, on: bool = True) -> None:
         """Light every pixel, whatever the picture is, or with False show the picture again.
@@ -482,8 +443,8 @@ class Panel:
         """
         if not self.controller.all_on:
             raise features.lacking(self.controller, "light every pixel by itself", lambda chip: chip.all_on)
-        self._all_on = bool(on)
-        self._change(lambda: (*(() if on else self.controller.follow), *self._mode()))
+        self._driver.all_on = bool(on)
+        self._change(lambda: (*(() if on else self.controller.follow), *self._driver.mode()))
 
     def blink(self, speed: float | None = 1.0) -> None:
         """Let the chip blink by itself: fade to dark and back, or go off and on.
@@ -506,14 +467,14 @@ class Panel:
         ...
         ValueError: the SSD1306 cannot blink by itself; SSD1315, SSD1316, HT16K33 can
         """
-        self._affect("blink", speed)
+        self._change(self._driver.affect(features.effect(self.controller, "blink"), speed))
 
     def fade(self, speed: float | None = 1.0) -> None:
         """Let the chip fade by itself until it is dark. It stays so until ``fade(None)``.
 
         Parameters and errors are those of `blink`, which ends fading, and the other way round.
         """
-        self._affect("fade", speed)
+        self._change(self._driver.affect(features.effect(self.controller, "fade"), speed))
 
     def scroll(
         self,
@@ -566,27 +527,27 @@ class Panel:
             commands = features.scroll_once(self.controller, across, down, box)
         else:
             commands = features.scroll(self.controller, across, down, frames, box)
-        self._change(lambda: self._set_in_motion(commands, across, box, once))
+        self._change(lambda: self._driver.set_in_motion(commands, across, box, once))
 
     def stop_scroll(self) -> None:
         """End a scroll; the picture stays where it is until the next `show`, which sends it whole."""
         if self.controller.scroll is None:
             raise features.lacking(self.controller, "scroll by itself", lambda chip: chip.scroll)
-        self._change(lambda: (self._still(),) if self._scrolling else ())
+        self._change(self._driver.still)
 
     def sleep(self) -> None:
         """Turn the panel dark. It keeps its picture, takes new ones, and needs next to no power."""
-        self._asleep = True
-        self._change(self._power)
+        self._driver.asleep = True
+        self._change(self._driver.power)
 
     def wake(self) -> None:
         """Light the panel again; one that was shown nothing yet lights with its first picture."""
-        self._asleep = False
-        self._change(self._power)
+        self._driver.asleep = False
+        self._change(self._driver.power)
 
     def invalidate(self) -> None:
         """Say that the panel's state is unknown, after a power cut for instance: the next show starts it anew."""
-        self._ready = False
+        self._driver.ready = False
 
     def close(self) -> None:
         """Leave the panel as `on_close` says and close the transport. Closing twice does nothing.
@@ -612,7 +573,7 @@ class Panel:
         if self._sender is not None:
             self._sender.stop(0.0)
         try:
-            self._do(self._leave)
+            self._driver.leave(self._on_close)
         finally:
             self._closed = True
             self.transport.close()
@@ -688,13 +649,15 @@ class Panel:
             return pixels[::-1, ::-1]
         return pixels[::-1].T if self._rotate == 90 else pixels[:, ::-1].T
 
-    def _arranged(self, pixels: Levels, max_level: int, packed: Levels) -> None:
-        """Pack levels for a chip that cannot mirror or invert, or has bands of the picture beside each other."""
-        chip = self.controller
-        pixels = pixels[:: -1 if chip.mirror_y else 1, :: -1 if chip.mirror_x else 1]
-        packer(chip)(np.hstack(np.split(pixels, chip.bands)), max_level, packed)
-        if self._inverted and chip.inverse is None:
-            np.invert(packed, out=packed)
+    def _box(self, rows: tuple[int, int] | None, columns: tuple[int, int] | None) -> features.Box:
+        """The part of the unturned glass that some rows and columns of the picture are."""
+        marked = np.zeros((self.height, self.width), np.uint8)
+        for name, chosen, size in (("rows", rows, self.height), ("columns", columns, self.width)):
+            if chosen is not None and not 0 <= chosen[0] < chosen[1] <= size:
+                raise ValueError(f"{name} must be a first one and the one behind the last, 0 to {size}, not {chosen}")
+        marked[slice(*rows) if rows else slice(None), slice(*columns) if columns else slice(None)] = 1
+        y, x = np.nonzero(self._upright(marked))
+        return features.Box(int(x[0]), int(y[0]), int(x[-1]) + 1, int(y[-1]) + 1)
 
     # -- One call at a time
 
@@ -745,276 +708,22 @@ class Panel:
             self._check()
         if self._care.needed:
             pixels = self._cared_for(pixels, max_level)
-        (self._pack or self._arranged)(self._upright(pixels), max_level, self._planner.fresh)
-        if (
-            force
-            or (self._watched and started - self._looked > _LOOK and not self._alive(started))
-            or (self._refresh is not None and started - self._started > self._refresh)
-        ):
-            self._ready = False
-        report = Report(*self._do(self._send), time.perf_counter() - started)
+        driver = self._driver
+        driver.pack(self._upright(pixels), max_level)
+        report = Report(*driver.show(force, started), time.perf_counter() - started)
         self.stats.add(report)
         return report
 
     def _change(self, commands: Callable[[], Iterable[bytes]]) -> None:
-        """Send commands for a setting; first bring back the picture where the panel may have lost it."""
+        """Send commands for a setting, now or when this thread's own call that it interrupts is done."""
         self._listen()
-
-        def operation() -> None:
-            if self._ready:
-                self._ready = False
-                self._command(*commands())
-                self._ready = True
-            else:
-                self._restore()  # which knows all settings
-                self._command(*commands())
-                self._ready = True
-            if self._shown and isinstance(self._planner, RegisterPlanner):
-                self._send()  # as the setting has the picture, where the chip does not
-
-        if self._postponed(lambda: self._do(operation)):
+        if self._postponed(lambda: self._driver.change(commands)):
             return
         with self._lock:
             try:
-                self._do(operation)
+                self._driver.change(commands)
             finally:
                 self._catch_up()
-
-    def _do(self, operation: Callable[[], T]) -> T:
-        """Try again after faults that may pass; each operation restores a chip of which it cannot be sure."""
-        first = 0.0
-        for attempt in range(_RETRIES):
-            try:
-                return operation()
-            except TransportError as error:
-                self._ready = False
-                self._count(error)
-                first = first or time.perf_counter()
-                if not error.transient or time.perf_counter() - first > _PATIENCE:
-                    raise error.final() from error.__cause__
-                self.stats.retries += 1
-                time.sleep(_PATIENCE / 2 ** (_RETRIES - attempt))
-        try:
-            return operation()
-        except TransportError as error:
-            self._ready = False
-            self._count(error)
-            raise error.final() from error.__cause__
-
-    def _count(self, error: TransportError) -> None:
-        kind = errno.errorcode.get(error.errno or 0, type(error).__name__)
-        self.stats.faults[kind] = self.stats.faults.get(kind, 0) + 1
-
-    # -- What goes to the transport. `_ready` is False meanwhile: whatever ends a call early leaves it so.
-
-    def _start(self) -> Sent:
-        """Bring the chip from any state to a dark, configured one."""
-        chip = self.controller
-        mode = self._mode() if self._inverted or self._all_on else ()
-        effect = [self._effect] if self._effect and not self._effect_lights else []
-        commands = [*chip.init, *mode, *self._brightness(), *effect, *self._kept, *self._rest()]
-        if self._started:
-            self.stats.restarts += 1
-        self._lit = self._watched = self._stirred = self._scrolling = False
-        self._unsure, self._settled = None, 0.0
-        self.transport.reset()
-        sent = self._command(*([chip.resync] if chip.resync else ()), *commands)
-        self._planner.restart()
-        self._started = self._looked = time.perf_counter()
-        self._watched = self._status() == chip.status_off != 0
-        return sent
-
-    def _send(self) -> tuple[int, int, int]:
-        """Send the planner's fresh frame; return bytes on the wire, messages, changed bytes."""
-        wire = messages = 0
-        ready, self._ready = self._ready, False
-        if not ready:
-            wire, messages = self._start()
-        if isinstance(self._planner, RegisterPlanner):
-            self._planner.adjust(self._inverted, self._contrast)
-        if self._stirred:
-            wire, messages = self._calm()
-        plan, sent = self._bring()
-        wire += sent
-        if not (self._lit or self._asleep or self._care.rest == "off"):
-            power_on = self._command(*self._light())
-            wire, messages = wire + power_on.wire_bytes, messages + power_on.messages
-            self._lit = True
-            self._watched = self._watched and self._status() == 0
-        self._ready = True
-        if self._asked is not _NOTHING:
-            wire, messages = wire + self._asked.wire_bytes, messages + self._asked.messages
-            self._asked = _NOTHING
-        return wire, messages + plan.count, plan.changed
-
-    def _bring(self) -> tuple[Plan, int]:
-        """Bring the fresh frame into the chip's RAM; return the plan, and the bytes on the wire."""
-        plan, wire = self._planner.plan(), 0
-        if plan.count:
-            wire = self._wire.batch(plan)
-            self._planner.sent()
-            self._shown = True
-        return plan, wire
-
-    def _command(self, *commands: bytes | float) -> Sent:
-        """Send commands, each with its arguments, and make the pauses among them."""
-        wire = messages = 0
-        if isinstance(self._planner, RegisterPlanner):
-            plan = self._planner.commands(*(command for command in commands if isinstance(command, bytes)))
-            return Sent(self._wire.batch(plan) if plan.count else 0, plan.count)
-        waiting = b""
-        for command in commands:
-            if isinstance(command, float):
-                if waiting:
-                    wire, messages, waiting = wire + self._wire.command(waiting), messages + 1, b""
-                time.sleep(command)
-            elif self.controller.arguments_are_data:
-                wire += self._wire.command(command[:1])
-                if len(command) > 1:
-                    wire += self._wire.data(command[1:])
-                messages += 1 + (len(command) > 1)
-            else:
-                waiting += command
-        if waiting:
-            wire, messages = wire + self._wire.command(waiting), messages + 1
-        return Sent(wire, messages)
-
-    def _status(self) -> int | None:
-        """What the chip answers to a read, of the bit that says that the display is off; None if it cannot be read."""
-        read = getattr(self.transport, "read_status", None)
-        if read is None or not self.controller.status_off:
-            return None
-        with contextlib.suppress(TransportError):
-            status, wire = read()
-            self._asked = Sent(self._asked.wire_bytes + wire, self._asked.messages + 1)
-            return int(status) & self.controller.status_off
-        return None
-
-    def _alive(self, now: float) -> bool:
-        """Whether the chip is still as it was left, as far as it tells."""
-        self._looked = now
-        return self._status() == (0 if self._lit else self.controller.status_off)
-
-    def _brightness(self) -> tuple[bytes, ...]:
-        """Commands for what was asked for; none where init's brightness is to stay."""
-        if self._contrast is None or self.controller.contrast is None:
-            return ()
-        # What brackets the command may light the chip.
-        dark = () if self._lit or not self.controller.contrast.after else (self.controller.power_off,)
-        return *self.controller.contrast.commands(self._contrast), *dark, *self._drive
-
-    def _inversion(self, inverted: bool) -> tuple[bytes, ...]:
-        """Note which levels are lit; return the command for it, or send the picture turned over."""
-        chip, before, self._inverted = self.controller, self._inverted, inverted
-        if chip.inverse is not None:
-            return self._mode()
-        if before != inverted:
-            np.invert(self._planner.fresh, out=self._planner.fresh)
-            if self._shown:
-                self._bring()
-        return ()
-
-    def _power(self) -> tuple[bytes, ...]:
-        """The command for light or none; there is no light before the first picture."""
-        self._lit = self._shown and not self._asleep
-        return self._light() if self._lit else (self.controller.power_off,)
-
-    def _light(self) -> tuple[bytes, ...]:
-        """The command for light, which may be that of an effect, and may have ended that every pixel is lit."""
-        power_on = self._effect if self._effect_lights else self.controller.power_on
-        return (power_on, self.controller.all_on) if self._all_on else (power_on,)
-
-    def _mode(self) -> tuple[bytes, ...]:
-        """Commands for what the picture looks like: as it is, inverted, or not at all, as every pixel is lit."""
-        shown = self.controller.inverse if self._inverted else self.controller.normal
-        return tuple(filter(None, (shown, self.controller.all_on if self._all_on else b"")))
-
-    # -- What the chip does by itself
-
-    def _affect(self, name: str, speed: float | None) -> None:
-        """Begin or end an effect; there is one at a time."""
-        effect = features.effect(self.controller, name)
-        command = effect.off if speed is None else effect.command(speed)
-        self._effect, self._effect_lights = (b"", False) if speed is None else (command, effect.lights)
-        self._change(lambda: (command,) if self._lit or not effect.lights else ())
-
-    def _box(self, rows: tuple[int, int] | None, columns: tuple[int, int] | None) -> features.Box:
-        """The part of the unturned glass that some rows and columns of the picture are."""
-        marked = np.zeros((self.height, self.width), np.uint8)
-        for name, chosen, size in (("rows", rows, self.height), ("columns", columns, self.width)):
-            if chosen is not None and not 0 <= chosen[0] < chosen[1] <= size:
-                raise ValueError(f"{name} must be a first one and the one behind the last, 0 to {size}, not {chosen}")
-        marked[slice(*rows) if rows else slice(None), slice(*columns) if columns else slice(None)] = 1
-        y, x = np.nonzero(self._upright(marked))
-        return features.Box(int(x[0]), int(y[0]), int(x[-1]) + 1, int(y[-1]) + 1)
-
-    def _set_in_motion(
-        self, commands: tuple[bytes, ...], across: int, box: features.Box, once: bool
-    ) -> tuple[bytes, ...]:
-        """Send what must come before a scroll; return its commands."""
-        self._wait_for_step()
-        if self._scrolling:
-            self._ready = self._shown  # a new scroll begins with the picture as it was
-            self._send() if self._shown else self._command(self._still())
-            self._ready = False
-        self._stirred = True
-        if not once:
-            for place, count in features.beside(self.controller):
-                self._command(place)
-                self._wire.data(bytes(count))
-            self._scrolling = True
-            return commands
-        self._step(across, box)
-        self._settled = time.perf_counter() + (self.controller.scroll.pause if self.controller.scroll else 0.0)
-        return commands
-
-    def _step(self, across: int, box: features.Box) -> None:
-        """Know that the chip moves a box by a column; of the column that comes in nothing is known."""
-        wide, high = self.controller.cell
-        part = (slice(box.top // high, -(-box.bottom // high)), slice(box.left // wide, box.right // wide))
-        if self._unsure is None:
-            self._unsure = np.zeros(self._planner.fresh.shape, np.bool_)
-        for held in (self._planner.shadow[part], self._unsure[part]):
-            held[...] = np.roll(held, across, axis=1)
-        self._unsure[part][:, 0 if across > 0 else -1] = True
-
-    def _wait_for_step(self) -> None:
-        """Wait until a single step is over."""
-        if self._settled:
-            time.sleep(max(0.0, self._settled - time.perf_counter()))
-            self._settled = 0.0
-
-    def _calm(self) -> Sent:
-        """Make sure that the RAM stays as it is, and that the next plan sends what of it is not known."""
-        self._wait_for_step()
-        if self._unsure is not None:
-            np.invert(self._planner.fresh, out=self._planner.shadow, where=self._unsure)
-            self._unsure = None
-        self._stirred = False
-        return self._command(self._still()) if self._scrolling else _NOTHING
-
-    def _still(self) -> bytes:
-        """Know that a scroll is over, which left the RAM moved; return the command that ends it."""
-        self._scrolling = False
-        self._planner.forget()
-        return self.controller.scroll.stop if self.controller.scroll else b""
-
-    def _restore(self) -> None:
-        if self._shown:
-            self._send()
-        else:
-            self._start()
-            self._ready = True
-
-    def _leave(self) -> None:
-        if self._on_close == "clear":
-            if self._inverted:  # black is black; a start leaves the chip as its init has it
-                self._inverted = self._ready = False
-            self._planner.fresh[:] = 0
-            self._send()
-        elif self._on_close == "off":
-            ready, self._ready = self._ready, False
-            self._command(self.controller.power_off) if ready else self._start()
 
     # -- Care for the glass
 
@@ -1023,8 +732,7 @@ class Panel:
         last, highest = self._last
         if highest != max_level or not np.array_equal(pixels, last):
             self._last = pixels.copy(), max_level
-            if self._care.rest:
-                self._ready = False  # a start brings back light and brightness
+            self._driver.wake_from_rest()
             self._care.changed(time.monotonic())
             self._own_sender().wake_at(self._care.due())
         return self._care.moved(pixels)
@@ -1037,25 +745,10 @@ class Panel:
             before = self._care.rest
             moves = self._care.act(time.monotonic())
             if self._care.rest != before:
-                self._do(self._go_to_rest)
-            if moves and self._shown:
+                self._driver.go_to_rest(self._care.rest)
+            if moves and self._driver.shown:
                 self._show_now(*self._last, False, time.perf_counter())
             self._own_sender().wake_at(self._care.due())
-
-    def _go_to_rest(self) -> None:
-        ready, self._ready = self._ready, False
-        if not ready:
-            self._restore()
-        self._command(*self._rest())
-        self._lit = self._lit and self._care.rest != "off"
-        self._ready = True
-
-    def _rest(self) -> tuple[bytes, ...]:
-        """The commands for the rest that the panel takes; none while it does not."""
-        chip = self.controller
-        if self._care.rest == "dim" and chip.contrast is not None:
-            return *chip.contrast.commands(0), *(chip.drive[-1] if chip.drive else ())
-        return (chip.power_off,) if self._care.rest == "off" else ()
 
 
 def _record(controller: Any) -> Controller:

@@ -27,6 +27,7 @@ WITHOUT_EXAMPLE = {
     "paneldraw.transports.Plan",
     "paneldraw.transports.Transport",
     "paneldraw.update.Planner",
+    "paneldraw.update.Plans",
     "paneldraw.update.UPDATES",
 }
 

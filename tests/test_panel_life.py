@@ -448,7 +448,7 @@ def test_a_panel_dims_and_goes_off_and_the_next_picture_wakes_it():
     for rest, contrast, on in (("dim", 0, True), ("off", 0, False)):
         panel._care._changed -= 1
         panel._sender.wake_at(care.due())
-        until(lambda rest=rest: care.rest == rest and panel._ready)
+        until(lambda rest=rest: care.rest == rest and panel._driver.ready)
         assert (chip.contrast, chip.registers.on) == (contrast, on)
     assert panel.show(noise(1)).unchanged
     assert not chip.registers.on
@@ -463,7 +463,7 @@ def test_a_restart_at_rest_stays_at_rest():
     panel.show(noise(1))
     panel._care._changed -= 1
     panel._sender.wake_at(panel._care.due())
-    until(lambda: panel._care.rest == "dim" and panel._ready)
+    until(lambda: panel._care.rest == "dim" and panel._driver.ready)
     chip.power_cycle()
     panel.show(noise(1), force=True)
     np.testing.assert_array_equal(chip.pixels, noise(1))

@@ -115,7 +115,7 @@ def _window_twice(panel: Panel) -> None:
         window.write,
     ):
         if command:
-            panel._command(command)
+            panel._driver.command(command)
     size = columns * window.column_bytes * rows
     panel.transport.data(b"\x0f" * size)
     panel.transport.data(b"\xff" * size)

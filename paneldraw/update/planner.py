@@ -133,6 +133,9 @@ class Planner:
         plan.count, plan.cost = w.messages, w.total
         return plan
 
+    def commands(self, *commands: bytes) -> None:
+        """Return no plan: the transport has messages for commands."""
+
     def sent(self) -> None:
         """Note that the plan arrived: the panel holds the fresh frame."""
         self._writer.sent()

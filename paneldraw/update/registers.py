@@ -54,31 +54,22 @@ class RegisterPlanner:
     """
 
     def __init__(self, controller: Controller, registers: Registers, cost: Cost, whole: bool) -> None:
-        self._chip, self._registers, self._cost, self._whole = controller, registers, cost, whole
+        self._registers, self._cost, self._whole = registers, cost, whole
         self._longest = registers.size if cost.longest is None else cost.longest
         self.fresh: npt.NDArray[np.uint8] = np.zeros(registers.size, np.uint8)
-        self.shadow, self._new, self._mask, self._all_lit = (self.fresh.copy() for _ in range(4))
-        packer(controller)(np.ones((controller.height, controller.width), np.uint8), 1, self._all_lit)
-        self._used = self._all_lit != 0
-        self._level = 255
+        self.shadow = self.fresh.copy()
+        all_lit = self.fresh.copy()
+        packer(controller)(np.ones((controller.height, controller.width), np.uint8), 1, all_lit)
+        self._used = all_lit != 0
         self._known = False
         self._plan = Plan(*self._room())
 
-    def adjust(self, inverted: bool, contrast: int | None) -> None:
-        """Say how frames are to be sent where the chip has no command for it: inverted, dimmed to a contrast."""
-        self._mask[:] = self._all_lit if inverted and not self._chip.inverse else 0
-        dimmed = self._chip.contrast is not None and not self._chip.contrast.command
-        self._level = 255 if contrast is None or not dimmed else contrast
-
     def plan(self) -> Plan:
-        """Return the cheapest plan from what the panel holds to `fresh`, adjusted. It is valid until the next one.
+        """Return the cheapest plan from what the panel holds to `fresh`. It is valid until the next one.
 
         Once it went out call `sent`; if it failed, `forget`.
         """
-        np.bitwise_xor(self.fresh, self._mask, out=self._new)
-        if self._level != 255:
-            self._new[:] = (self._new.astype(np.uint16) * self._level + 127) // 255
-        changed = self._used & (self._new != self.shadow) if self._known else self._used
+        changed = self._used & (self.fresh != self.shadow) if self._known else self._used
         plan = self._begin(self._plan)
         plan.changed = int(np.count_nonzero(changed))
         if plan.changed:
@@ -97,7 +88,7 @@ class RegisterPlanner:
 
     def sent(self) -> None:
         """Note that the plan arrived: the panel holds the fresh frame."""
-        self.shadow[:] = self._new
+        self.shadow[:] = self.fresh
         self._known = True
 
     def forget(self) -> None:
@@ -124,7 +115,7 @@ class RegisterPlanner:
         for run in np.split(where, cuts):
             for start in range(run[0], run[-1] + 1, self._longest):
                 stop = min(run[-1] + 1, start + self._longest)
-                self._add(self._plan, self._registers.first + start, self._new[start:stop])
+                self._add(self._plan, self._registers.first + start, self.fresh[start:stop])
 
     def _begin(self, plan: Plan) -> Plan:
         plan.count = plan.cost = plan.changed = 0
@@ -169,6 +160,6 @@ class ChainPlanner(RegisterPlanner):
         rows, chips = np.nonzero(changed)
         messages = np.zeros((turns[-1].max(), self._registers.chips, 2), np.uint8)
         messages[turns[rows, chips] - 1, chips, 0] = rows + 1
-        messages[turns[rows, chips] - 1, chips, 1] = self._new.reshape(_ROWS, -1)[rows, chips]
+        messages[turns[rows, chips] - 1, chips, 1] = self.fresh.reshape(_ROWS, -1)[rows, chips]
         for number, message in enumerate(messages):
             self._add(self._plan, _KINDS[number % 2], message.reshape(-1))

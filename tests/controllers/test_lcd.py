@@ -7,7 +7,7 @@ import itertools
 import numpy as np
 import pytest
 
-from paneldraw import Panel, open_panel, panel, simulator
+from paneldraw import Panel, driver, open_panel, panel, simulator
 from paneldraw.controllers import CHIPS, PCD8544, SSD1306, ST7565, ST7567, ST7920, UC1609, UC1701
 from paneldraw.errors import PanelError
 from paneldraw.transports import I2CTransport, SPITransport
@@ -45,7 +45,8 @@ class Pauses:
 @pytest.fixture(autouse=True)
 def pauses(monkeypatch):
     clock = Pauses()
-    monkeypatch.setattr(panel, "time", clock)
+    for module in (panel, driver):
+        monkeypatch.setattr(module, "time", clock)
     return clock
 
 

@@ -274,7 +274,7 @@ def test_a_panel_that_lost_its_power_for_a_moment_is_started_again(
     port.panel = chip.write
     with Panel(SSD1306(128, 64), SerialTransport(port, clock=port.clock)) as panel:
         checked(panel, port, chip)
-        monkeypatch.setattr("paneldraw.panel._LOOK", 0.0)
+        monkeypatch.setattr("paneldraw.driver._LOOK", 0.0)
         chip.power_cycle()
         picture = draw(panel, 3)
         port.read()
