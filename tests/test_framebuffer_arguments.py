@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import copy
 import enum
+import pickle
 from decimal import Decimal
 from fractions import Fraction
 
 import numpy as np
 import pytest
+
+from paneldraw import Framebuffer
 
 NOT_NUMBERS = ["1", b"1", None, 1j, [1], (), {}, np.zeros(2), np.array([1.0]), ..., Decimal("sNaN")]
 NOT_FINITE = [float("nan"), float("inf"), float("-inf"), np.float32("nan"), Decimal("Infinity"), Fraction(10**400)]
@@ -233,3 +237,32 @@ def test_a_framebuffer_that_was_never_made_is_an_error_not_a_crash(package):
     ):
         with pytest.raises(AttributeError):
             call()
+
+
+@pytest.mark.parametrize(
+    ("name", "call"),
+    [
+        ("fill_rect", "fb.rect(1, 1, 2, 2, 1, fill=True)"),
+        ("rectangle", "fb.rect(1, 1, 2, 2, 1)"),
+        ("rounded_rect", "fb.round_rect(0, 0, 6, 6, 2, 1)"),
+    ],
+)
+def test_calls_of_other_libraries_are_answered_with_ours(package, fb, name, call):
+    ours = call.removeprefix("fb.").partition("(")[0]
+    with pytest.raises(AttributeError, match=rf"a framebuffer has no {name}: write {ours}\("):
+        getattr(fb, name)
+    exec(call, {"fb": fb})
+    assert fb.pixels.any()
+    assert not hasattr(fb, name)
+    assert name not in dir(fb)
+    assert ours in dir(fb)
+    assert copy.deepcopy(fb) == fb
+    if type(fb) is Framebuffer:
+        assert pickle.loads(pickle.dumps(fb)) == fb
+
+    class Own(package.Framebuffer):
+        pass
+
+    setattr(Own, name, lambda self: "own")
+    assert getattr(Own(2, 2), name)() == "own"
+    assert name in dir(Own(2, 2))

@@ -43,6 +43,21 @@ _EDGES = {"shared": 0, "covered": 1}
 _OWN = {"pixels", "depth", "surface", "painter", "_whole", "_clips"}
 
 
+class _Instead:
+    """In the place of a call that other libraries have: an AttributeError that says what to write."""
+
+    def __init__(self, name: str, call: str) -> None:
+        self._advice = f"a framebuffer has no {name}: write {call}"
+
+    def __get__(self, framebuffer: object, owner: object) -> _Instead:
+        if framebuffer is not None:
+            raise AttributeError(self._advice)
+        return self
+
+    def __repr__(self) -> str:
+        return f"<{self._advice}>"
+
+
 @cython.cclass
 class Framebuffer:
     """A picture in memory, one byte a pixel, and the calls that draw on it.
@@ -108,6 +123,12 @@ class Framebuffer:
     if TYPE_CHECKING:
         pixels: NDArray[np.uint8]
         depth: int
+
+    else:
+        # What people know from Adafruit's libraries and from Pillow.
+        fill_rect = _Instead("fill_rect", "rect(x, y, w, h, c, fill=True)")
+        rectangle = _Instead("rectangle", "rect(x, y, w, h, c)")
+        rounded_rect = _Instead("rounded_rect", "round_rect(x, y, w, h, r, c)")
 
     __signature__ = SignatureOfInit()
 
@@ -1096,6 +1117,10 @@ class Framebuffer:
 
     def __str__(self) -> str:
         return pictures.to_text(self.pixels, self.depth)
+
+    def __dir__(self) -> list[str]:
+        kind = type(self)
+        return [name for name in object.__dir__(self) if not isinstance(getattr(kind, name, None), _Instead)]
 
     def __repr__(self) -> str:
         return f"Framebuffer({self.width}, {self.height}, depth={self.depth})"
