@@ -29,7 +29,9 @@ T = TypeVar("T")
 
 _RETRIES: Final = 6
 _PATIENCE: Final = 0.02
-"""So many times, and about so many seconds, a fault is answered by trying again."""
+"""So many times, and about so many seconds without any success, a fault is answered by trying again."""
+_BUSY: Final = (3, 0.25)
+"""So many of these times have so many seconds: other processes may take the machine away meanwhile."""
 _LOOK: Final = 1.0
 """Seconds between two looks at whether the panel lost its power."""
 
@@ -194,7 +196,7 @@ class Driver:
 
     def attempt(self, operation: Callable[[], T]) -> T:
         """Try again after faults that may pass; each operation restores a chip of which it cannot be sure."""
-        started, tries = 0.0, 0
+        started, tries = -1.0, 0
         while True:
             try:
                 return operation()
@@ -202,8 +204,10 @@ class Driver:
                 self.ready = False
                 self._count(error)
                 now = time.perf_counter()
-                started = started or now
-                if tries == _RETRIES or not error.transient or now - started > _PATIENCE:
+                if started < self._started:  # the chip took its init meanwhile, on a wire that may be slow
+                    started = now
+                patience = _BUSY[1] if tries < _BUSY[0] else _PATIENCE
+                if tries == _RETRIES or not error.transient or now - started > patience:
                     raise error.final() from error.__cause__
             self.stats.retries += 1
             time.sleep(_PATIENCE / 2 ** (_RETRIES - tries))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ctypes
 import errno
 import os
-import threading
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
@@ -389,28 +389,27 @@ def test_what_takes_nothing_says_so():
 
 
 @pytest.mark.parametrize("together", [True, False])
-def test_eight_panels_of_one_address_behind_a_multiplexer(together):
-    chips = [simulator.SSD1306() for _ in range(8)]
+@pytest.mark.parametrize("frames", [20, pytest.param(1000, marks=pytest.mark.thorough)])
+def test_eight_panels_of_one_address_behind_a_multiplexer(together, frames):
+    chips = [simulator.SSD1306(history=frames) for _ in range(8)]
     bus = simulator.I2CBus({0x70: simulator.Multiplexer({n: {0x3C: chip} for n, chip in enumerate(chips)})})
     if together:
         bus.funcs |= 0x4
     panels = [Panel(SSD1306(), I2CTransport(bus, mux=(0x70, channel))) for channel in range(8)]
 
-    def animate(number):
+    def pictures(number):
         random = np.random.default_rng(number)
-        for _ in range(20):
-            panels[number].show(random.integers(0, 2, (64, 128), np.uint8))
+        return (random.integers(0, 2, (64, 128), np.uint8) for _ in range(frames))
 
-    threads = [threading.Thread(target=animate, args=(number,)) for number in range(8)]
-    for thread in threads:
-        thread.start()
-    for thread in threads:
-        thread.join()
+    def animate(number):
+        for picture in pictures(number):
+            panels[number].show(picture)
+
+    with ThreadPoolExecutor(8) as threads:
+        list(threads.map(animate, range(8)))
     for number, chip in enumerate(chips):
-        random = np.random.default_rng(number)
-        pictures = [random.integers(0, 2, (64, 128), np.uint8) for _ in range(20)]
-        np.testing.assert_array_equal(chip.pixels, pictures[-1])
-        assert len(chip.frames) == 20
+        for frame, picture in zip(chip.frames, pictures(number), strict=True):
+            np.testing.assert_array_equal(frame.pixels, picture)
     before = bus.bytes, bus.transactions
     report = panels[3].clear()
     assert report.wire_bytes == bus.bytes - before[0]
