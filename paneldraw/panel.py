@@ -59,6 +59,9 @@ class Report(NamedTuple):
         return self.changed_bytes == 0 and not self.queued
 
 
+_QUEUED: Final = Report(0, 0, 0, 0.0, queued=True)
+
+
 @dataclass(slots=True)
 class Stats:
     """Sums over all `Report`s of a panel, and what went wrong on the way."""
@@ -678,8 +681,8 @@ class Panel:
         return self._sender
 
     def _hand_over(self, pixels: Levels, max_level: int) -> Report:
-        self.stats.dropped += self._own_sender().put(pixels, max_level)
-        return Report(0, 0, 0, 0.0, queued=True)
+        self.stats.dropped += (self._sender or self._own_sender()).put(pixels, max_level)
+        return _QUEUED
 
     def _show(self, pixels: Levels, max_level: int, force: bool = False) -> Report:
         """Show checked levels."""
@@ -687,7 +690,7 @@ class Panel:
         if self._lock._is_owned():  # type: ignore[attr-defined]
             copy = pixels.copy()
             self._later.append(lambda: self._show_now(copy, max_level, force, time.perf_counter()))
-            return Report(0, 0, 0, 0.0, queued=True)
+            return _QUEUED
         report = None
         with self._lock:
             try:

@@ -28,6 +28,9 @@ class Sender:
     def __init__(self, panel: Panel) -> None:
         self._panel = weakref.ref(panel)
         self._change = threading.Condition()
+        # Rung for the thread; releasing a lock costs a third of notifying a condition.
+        self._bell = threading.Lock()
+        self._bell.acquire()
         self._waiting: npt.NDArray[np.uint8] | None = None
         self._max_level = 1
         self._busy = False
@@ -73,6 +76,7 @@ class Sender:
         """Forget what waits, let what is under way end, and end the thread."""
         with self._change:
             self._stopped, self._waiting = True, None
+            self._ring()
             self._change.notify_all()
         if self._thread is not None and self._thread is not threading.current_thread():
             self._thread.join(timeout)
@@ -81,19 +85,26 @@ class Sender:
         if self._thread is None and not self._stopped:
             self._thread = threading.Thread(target=self._work, name="paneldraw sender", daemon=True)
             self._thread.start()
-        self._change.notify_all()
+        self._ring()
+
+    def _ring(self) -> None:
+        """Wake the thread; `_change` is held."""
+        if self._bell.locked():
+            self._bell.release()
 
     def _work(self) -> None:
         while True:
             with self._change:
-                while not (self._stopped or self._waiting is not None or self._overdue()):
-                    self._change.wait(None if self._due is None else max(0.0, self._due - time.monotonic()))
                 if self._stopped:
                     return
+                patience = -1.0 if self._due is None else max(0.0, self._due - time.monotonic())
+                busy = self._busy = self._waiting is not None or self._overdue()
                 pixels, max_level, self._waiting = self._waiting, self._max_level, None
-                if pixels is None:
+                if pixels is None and busy:
                     self._due = None
-                self._busy = True
+            if not busy:
+                self._bell.acquire(timeout=patience)
+                continue
             self._serve(pixels, max_level)
             with self._change:
                 self._busy = False
