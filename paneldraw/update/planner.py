@@ -30,7 +30,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import cython
-from cython.cimports.libc.string import memcmp
+from cython.cimports.libc.string import memcmp, memcpy
 from cython.cimports.paneldraw.update.messages import HORIZONTAL, PAGE, Writer
 from cython.cimports.paneldraw.update.order import EXACT, IMPROVED, Order
 from cython.cimports.paneldraw.update.windows import MOST, Windows
@@ -50,6 +50,9 @@ _STREAM = cython.declare(cython.int, 1)
 _BOUNDING = cython.declare(cython.int, 2)
 _GROWN = cython.declare(cython.int, 3)
 _MIXED = cython.declare(cython.int, 4)
+_EQUAL = cython.declare(cython.int, 0)
+_DIFFERENT = cython.declare(cython.int, 1)
+_MIXTURE = cython.declare(cython.int, 2)
 
 
 @cython.final
@@ -157,6 +160,7 @@ class Planner:
         w = self._writer
         new, old, known, size = w.new, w.old, w.known, w.cell_bytes
         changed: cython.int = 0
+        words: cython.bint = known and size == 1
         self._count = 0
         for row in range(w.height):
             if known and self._same(row):
@@ -164,7 +168,22 @@ class Planner:
             pointer: cython.int = w.chip.column - w.left if row + w.top == w.chip.row else -1
             start: cython.int = -1
             i: cython.int = row * w.width * size
-            for column in range(w.width):
+            column: cython.int = -1
+            while column + 1 < w.width:
+                column += 1
+                if words and column & 7 == 0 and column + 8 <= w.width and not column <= pointer < column + 8:
+                    alike = self._alike(i)
+                    if alike != _MIXTURE:
+                        if alike == _DIFFERENT:
+                            changed += 8
+                            if start < 0:
+                                start = column
+                        elif start >= 0:
+                            self._add_piece(row, start, column)
+                            start = -1
+                        i += 8
+                        column += 7
+                        continue
                 differ: cython.int = 0
                 for _ in range(size):
                     differ += not known or new[i] != old[i]
@@ -187,6 +206,25 @@ class Planner:
         piece.row = row + self._writer.top
         piece.left, piece.right = start + self._writer.left, stop + self._writer.left
         self._count += 1
+
+    @cython.cfunc
+    @cython.inline
+    @cython.exceptval(check=False)
+    def _alike(self, i: cython.int) -> cython.int:
+        """Whether of eight bytes none changed, or each: in one step, which halves the time of a wholly new picture."""
+        difference: cython.ulonglong = 0
+        held: cython.ulonglong = 0
+        if not cython.compiled:
+            return _MIXTURE
+        memcpy(cython.address(difference), self._writer.new + i, 8)
+        memcpy(cython.address(held), self._writer.old + i, 8)
+        difference ^= held
+        if difference == 0:
+            return _EQUAL
+        # The lowest byte of 0 borrows from its highest bit.
+        ones: cython.ulonglong = 0x0101010101010101
+        borrowed: cython.ulonglong = (difference - ones) & ~difference & (ones << 7)
+        return _DIFFERENT if borrowed == 0 else _MIXTURE
 
     @cython.cfunc
     @cython.inline
@@ -226,6 +264,11 @@ class Planner:
         w, windows = self._writer, self._windows
         way: cython.int = _POINTER
         best: cython.int = _INFINITY
+        stream: cython.int = windows.stream(self._count)
+        if stream > 0 and stream == self._cells():  # what changed and no command: nothing is cheaper
+            w.cells(stream)
+            w.finish()
+            return
         if w.has_pointer:
             best = self._solve()
             # The first frame goes by page pointer too: small updates follow it more often than windows.
@@ -262,6 +305,15 @@ class Planner:
             self._write_mixed(tall, flat)
         else:
             windows.write(grown if way == _GROWN else windows.bounding(self._count))
+
+    @cython.cfunc
+    @cython.exceptval(check=False)
+    def _cells(self) -> cython.int:
+        """How many cells the pieces have."""
+        cells: cython.int = 0
+        for i in range(self._count):
+            cells += self._windows.pieces[i].right - self._windows.pieces[i].left
+        return cells
 
     @cython.cfunc
     @cython.exceptval(check=False)
