@@ -27,7 +27,7 @@ Levels = npt.NDArray[np.uint8]
 Commands = tuple[bytes, ...]
 T = TypeVar("T")
 
-_RETRIES: Final = 6
+_RETRIES: Final = 10
 _PATIENCE: Final = 0.02
 """So many times, and about so many seconds without any success, a fault is answered by trying again."""
 _BUSY: Final = (3, 0.25)

@@ -83,12 +83,13 @@ class Stats:
 
     def add(self, report: Report) -> None:
         """Count one more show."""
+        wire_bytes, messages, changed_bytes, seconds, _ = report
         self.frames += 1
-        self.unchanged += report.unchanged
-        self.wire_bytes += report.wire_bytes
-        self.messages += report.messages
-        self.changed_bytes += report.changed_bytes
-        self.seconds += report.seconds
+        self.unchanged += not changed_bytes
+        self.wire_bytes += wire_bytes
+        self.messages += messages
+        self.changed_bytes += changed_bytes
+        self.seconds += seconds
 
 
 class Panel:
@@ -712,7 +713,7 @@ class Panel:
         if self._care.needed:
             pixels = self._cared_for(pixels, max_level)
         driver = self._driver
-        driver.pack(self._upright(pixels), max_level)
+        driver.pack(self._upright(pixels) if self._rotate else pixels, max_level)
         report = Report(*driver.show(force, started), time.perf_counter() - started)
         self.stats.add(report)
         return report

@@ -96,7 +96,7 @@ class Outcome:
 
 
 def run(hours, *, seed=7, rate=0.01, cut_every=3600.0, say=None):
-    """Animate for so many hours; `say` is given the outcome so far once a simulated day."""
+    """Animate for so many hours; `say` is given the outcome so far once in six simulated hours."""
     clock, outcome = Clock(), Outcome()
     chip = simulator.SSD1306(seed=seed, history=1)
     bus = BadBus({0x3C: chip}, 0.0, clock, seed)
@@ -131,7 +131,7 @@ def run(hours, *, seed=7, rate=0.01, cut_every=3600.0, say=None):
             if number % (FPS * 900) == FPS * 300:
                 gc.collect()
                 outcome.blocks[1:] = [sys.getallocatedblocks()]
-            if say is not None and number % (FPS * 86_400) == FPS * 86_400 - 1:
+            if say is not None and number % (FPS * 21_600) == FPS * 21_600 - 1:
                 say(taken(outcome, number + 1, panel))
     return taken(outcome, number + 1, panel)
 

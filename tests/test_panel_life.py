@@ -291,8 +291,8 @@ def test_eight_threads_on_one_panel(frames):
     panel.show(pictures[0])
 
     def animate(number):
-        for _ in range(frames):
-            panel.show(pictures[number])
+        for frame in range(frames):
+            panel.show(pictures[(number + frame) % 8])
 
     settle = chip.settle
 

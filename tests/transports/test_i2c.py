@@ -390,7 +390,8 @@ def test_what_takes_nothing_says_so():
 
 @pytest.mark.parametrize("together", [True, False])
 @pytest.mark.parametrize("frames", [20, pytest.param(1000, marks=pytest.mark.thorough)])
-def test_eight_panels_of_one_address_behind_a_multiplexer(together, frames):
+def test_eight_panels_of_one_address_behind_a_multiplexer(together, frames, monkeypatch):
+    monkeypatch.setattr("paneldraw.driver._LOOK", 1e9)  # no look at the status among what is counted
     chips = [simulator.SSD1306(history=frames) for _ in range(8)]
     bus = simulator.I2CBus({0x70: simulator.Multiplexer({n: {0x3C: chip} for n, chip in enumerate(chips)})})
     if together:
