@@ -47,14 +47,14 @@ def gray_row(name: str, one: str, other: str, over_luma: float | None = None) ->
 
 
 ROWS = [
-    row("every pixel changed", "noise", "inverse", 20, displayio="dirty(); show(); dirty(); show()"),
+    row("every pixel changed", "noise", "inverse", 40, displayio="dirty(); show(); dirty(); show()"),
     row("another picture", "lines", "circles", 10),
     row(
         "one pixel changed",
         "lines",
         "lines_and_a_pixel",
-        20,
-        1 / 1.4,
+        60,
+        1,
         displayio="pixel(64, 32, 1); show(); pixel(64, 32, 0); show()",
     ),
     row("nothing changed", "lines", "lines", 20, displayio="show(); show()"),
