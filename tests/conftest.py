@@ -86,7 +86,9 @@ def own_time(monkeypatch):
     """A time for panels that only their own pauses pass, so that no busy machine ends their patience."""
     pauses = [1000.0]
     now = partial(sum, pauses)
-    monkeypatch.setattr("paneldraw.panel.time", SimpleNamespace(sleep=pauses.append, perf_counter=now, monotonic=now))
+    clock = SimpleNamespace(sleep=pauses.append, perf_counter=now, monotonic=now)
+    for module in ("panel", "driver"):
+        monkeypatch.setattr(f"paneldraw.{module}.time", clock)
 
 
 @pytest.fixture(scope="session")
