@@ -19,7 +19,7 @@ WITHOUT_EXAMPLE = {
     "paneldraw.controllers.CHIPS",
     "paneldraw.controllers.Controller",
     "paneldraw.simulator.Frame",
-    "paneldraw.simulator.Look",
+    "paneldraw.simulator.LOOKS",
     "paneldraw.simulator.contact_sheet",
     "paneldraw.simulator.save",
     "paneldraw.simulator.serve",

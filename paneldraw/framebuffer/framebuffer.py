@@ -32,6 +32,7 @@ if TYPE_CHECKING:
 
     from paneldraw.framebuffer.arguments import Antialias, AntialiasOrDefault
     from paneldraw.framebuffer.pictures import Dither
+    from paneldraw.simulator.looks import Look
     from paneldraw.text import Font
 
 _DEPTHS = (1, 2, 4, 8)
@@ -1096,9 +1097,24 @@ class Framebuffer:
         """Return a Pillow image, mode ``1`` for one bit a pixel, else ``L``, each pixel `scale` x `scale` large."""
         return pictures.to_image(self.pixels, self.surface.max_level, scale)
 
-    def save(self, path: str | PathLike[str], scale: int = 1) -> None:
-        """Write the picture to a file; its name's ending says in which format (``.png``, ``.bmp``, ...)."""
-        self.to_image(scale).save(path)
+    def save(self, path: str | PathLike[str], scale: int = 1, look: str | Look | None = None) -> None:
+        """Write the picture to a file; its name's ending says in which format (``.png``, ``.bmp``, ...).
+
+        Parameters
+        ----------
+        path : str or path-like
+        scale : int
+            Image pixels a pixel, at least 1. Default: 1.
+        look : str or Look, optional
+            Draw it as it looks on a panel: ``"white"``, ``"blue"``, ``"yellow-blue"``, ``"green-led"``, ``"red-led"``,
+            ``"lcd-green"``, ``"lcd-gray"`` or a `simulator.Look`. Default: plain black to white.
+        """
+        if look is None:
+            self.to_image(scale).save(path)
+        else:
+            from paneldraw.simulator import image  # who draws alone does not pay for it
+
+            image(self.pixels, scale=scale, max_level=self.max_level, look=look).save(path)
 
     def _repr_png_(self) -> bytes:
         """The picture for a notebook, enlarged."""

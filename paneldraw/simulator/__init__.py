@@ -9,8 +9,9 @@ from .frames import Frame
 from .ht16k33 import HT16K33
 from .is31fl3731 import IS31FL3731
 from .lcd import PCD8544, ST7565, ST7567, UC1609, UC1701
+from .looks import LOOKS, Look, find_look, image
 from .max7219 import MAX7219
-from .recorder import Look, contact_sheet, image, save
+from .recorder import contact_sheet, save
 from .sh110x import CH1115, SH1106, SH1107, SH1122
 from .spi import SPIBus
 from .ssd130x import SSD1305, SSD1306, SSD1309, SSD1312, SSD1315, SSD1316
@@ -25,6 +26,7 @@ __all__ = [
     "CH1115",
     "HT16K33",
     "IS31FL3731",
+    "LOOKS",
     "MAX7219",
     "PCD8544",
     "SH1106",
@@ -52,6 +54,7 @@ __all__ = [
     "SPIBus",
     "TerminalView",
     "contact_sheet",
+    "find_look",
     "image",
     "save",
     "serve",

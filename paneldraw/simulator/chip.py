@@ -8,11 +8,15 @@ from collections import deque
 from collections.abc import Callable, Iterable, Mapping
 from copy import copy
 from types import MappingProxyType, SimpleNamespace
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
 from .frames import Frame, Picture, Progress
+from .looks import Look, image
+
+if TYPE_CHECKING:
+    from PIL.Image import Image
 
 _STATUS_OFF = 0x40
 _MOST_STEPS = 1000
@@ -51,6 +55,8 @@ class Chip(ABC):
     """The buses that the chip can sit on."""
     max_level: int = 1
     """The level of a fully lit pixel."""
+    look: ClassVar[str] = "white"
+    """How the chip's panels look in a picture, by its name in `LOOKS`."""
     reset_values: Mapping[str, Any] = MappingProxyType({})
     """The registers and what reset gives them."""
 
@@ -201,6 +207,29 @@ class Chip(ABC):
         if self._growing or self._next_step is not None:
             self._at_rest(self._end_picture)
         return self._frames
+
+    def render(self, scale: int = 4, look: str | Look | None = None) -> Image:
+        """Draw what an eye sees as it looks on a panel.
+
+        Parameters
+        ----------
+        scale : int
+            Image pixels a panel pixel, at least 1. Default: 4.
+        look : str or Look, optional
+            A name of `LOOKS` or a look of your own. Default: that of the chip's panels.
+
+        Returns
+        -------
+        PIL.Image.Image
+            As `image` makes it.
+
+        Examples
+        --------
+        >>> from paneldraw import simulator
+        >>> simulator.SSD1306(128, 64).render(scale=2, look="yellow-blue").size
+        (260, 132)
+        """
+        return image(self.pixels, scale=scale, max_level=self.max_level, look=look or self.look)
 
     @property
     def status(self) -> int:

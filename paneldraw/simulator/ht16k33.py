@@ -56,6 +56,7 @@ class HT16K33(Chip):
     """
 
     buses = ("i2c",)
+    look = "red-led"
     reset_values: Mapping[str, Any] = MappingProxyType(
         {"oscillator": False, "on": False, "blink": 0, "dimming": 15, "interrupt": 0, "pointer": 0}
     )

@@ -67,6 +67,7 @@ class IS31FL3731(Chip):
     """
 
     buses = ("i2c",)
+    look = "red-led"
     max_level = 255
     sizes: ClassVar[tuple[tuple[int, int], ...]] = tuple(_boards())
 

@@ -71,6 +71,7 @@ class PCD8544(DisplayChip):
     [1, 1, 0]
     """
 
+    look = "lcd-gray"
     buses = ("spi",)
     columns, lines = 84, 6
     modules: ClassVar = {(84, 48): Module()}
@@ -177,6 +178,7 @@ class ST7565(DisplayChip):
     [1, 1, 0]
     """
 
+    look = "lcd-green"
     buses: ClassVar[tuple[str, ...]] = ("spi",)
     columns, lines, last_rows = 132, 9, 1
     modules: ClassVar = {(128, 64): Module(), (128, 32): Module(4), (132, 64): Module()}
@@ -358,6 +360,7 @@ class UC1609(DisplayChip):
     [1, 1, 0]
     """
 
+    look = "lcd-green"
     columns, lines = 192, 8
     modules: ClassVar = {(192, 64): Module()}
     upright = (False, True)

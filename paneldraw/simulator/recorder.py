@@ -4,13 +4,11 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass
 from itertools import pairwise
 from typing import TYPE_CHECKING, Protocol, runtime_checkable
 
-import numpy as np
-
 from .frames import Frame, Picture
+from .looks import Look, image
 
 if TYPE_CHECKING:
     from PIL.Image import Image
@@ -36,83 +34,12 @@ class Showing(Protocol):
     def max_level(self) -> int: ...
 
 
-@dataclass(frozen=True)
-class Look:
-    """How a panel looks in a picture; colors as Pillow reads them.
-
-    Parameters
-    ----------
-    lit, dark : str
-        Color of a pixel at the highest level, and at level 0. Default: a cold white on near black.
-    glass : str
-        Color between the pixels and around them. Default: black.
-    gap : int or None
-        Width of the gap between pixels, in image pixels; None is 1 from a scale of 4 on, else 0. Default: None.
-    """
-
-    lit: str = "#bfe9ff"
-    dark: str = "#10161d"
-    glass: str = "#000000"
-    gap: int | None = None
-
-
-def image(pixels: Picture, *, scale: int = 4, max_level: int = 1, look: Look | None = None) -> Image:
-    """Draw levels as they look on a panel.
-
-    Parameters
-    ----------
-    pixels : numpy.ndarray
-        Levels, shape (height, width).
-    scale : int
-        Image pixels a panel pixel, at least 1. Default: 4. A margin of one panel pixel is drawn around.
-    max_level : int
-        The level that is fully lit. Default: 1.
-    look : Look, optional
-        Colors and gap.
-
-    Returns
-    -------
-    PIL.Image.Image
-        Mode P, ((width + 2) * scale, (height + 2) * scale) pixels.
-
-    Raises
-    ------
-    ValueError
-        For a scale below 1 or a gap that leaves nothing of a pixel.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> image(np.eye(8, dtype=np.uint8), scale=3).size
-    (30, 30)
-    """
-    from PIL import Image, ImageColor
-
-    look = look or Look()
-    gap = look.gap if look.gap is not None else int(scale >= 4)
-    if scale < 1 or not 0 <= gap < scale:
-        raise ValueError(f"scale is at least 1 and the gap smaller than it, not {scale} and {gap}")
-    steps = min(max_level, 254)
-    indices = np.rint(np.asarray(pixels) * (steps / max_level)).astype(np.uint8) + 1
-    canvas = np.zeros((indices.shape[0] + 2, indices.shape[1] + 2), np.uint8)
-    canvas[1:-1, 1:-1] = indices
-    canvas = np.kron(canvas, np.ones((scale, scale), np.uint8))
-    for edge in range(scale - gap, scale):
-        canvas[edge::scale] = 0
-        canvas[:, edge::scale] = 0
-    dark, lit = (np.array(ImageColor.getrgb(color)[:3]) for color in (look.dark, look.lit))
-    ramp = [np.rint(dark + (lit - dark) * step / steps) for step in range(steps + 1)]
-    picture = Image.fromarray(canvas)
-    picture.putpalette(np.array([ImageColor.getrgb(look.glass)[:3], *ramp], np.uint8).tobytes())
-    return picture
-
-
 def contact_sheet(
     frames: Iterable[Frame],
     *,
     columns: int | None = None,
     scale: int = 2,
-    look: Look | None = None,
+    look: str | Look | None = None,
     progress: Progress | None = None,
 ) -> Image:
     """Lay frames out in rows on one picture, each with its time below.
@@ -164,7 +91,7 @@ def save(
     path: str | os.PathLike[str],
     *,
     scale: int = 4,
-    look: Look | None = None,
+    look: str | Look | None = None,
     progress: Progress | None = None,
 ) -> None:
     """Write what a panel showed to a file, as the extension says.
@@ -203,7 +130,7 @@ def save(
         raise ValueError(f"path: {os.fspath(path)!r} ends neither in .gif nor in .png")
 
 
-def _still(source: Showing | Iterable[Frame], scale: int, look: Look | None, progress: Progress | None) -> Image:
+def _still(source: Showing | Iterable[Frame], scale: int, look: str | Look | None, progress: Progress | None) -> Image:
     if isinstance(source, Showing):
         return image(source.pixels, scale=scale, max_level=source.max_level, look=look)
     frames = _not_empty(source)
@@ -213,7 +140,7 @@ def _still(source: Showing | Iterable[Frame], scale: int, look: Look | None, pro
 
 
 def _save_gif(
-    frames: list[Frame], path: str | os.PathLike[str], scale: int, look: Look | None, progress: Progress | None
+    frames: list[Frame], path: str | os.PathLike[str], scale: int, look: str | Look | None, progress: Progress | None
 ) -> None:
     shown = list(_visible(frames))
     durations = [10 * (later - start) for (start, _), (later, _) in pairwise(shown)] + [10 * _HOLD]

@@ -16,7 +16,8 @@ from typing import TYPE_CHECKING
 from urllib.parse import urlsplit
 
 from .frames import Picture
-from .recorder import Look, Showing
+from .looks import Look
+from .recorder import Showing
 
 if TYPE_CHECKING:
     from aiohttp import web
