@@ -18,6 +18,7 @@ from .ssd130x import SSD1305, SSD1306, SSD1309, SSD1312, SSD1315, SSD1316
 from .ssd132x import SSD1322, SSD1325, SSD1327, SSD1362
 from .st7920 import ST7920
 from .terminal import TerminalView, text
+from .transcript import Transcript
 
 if TYPE_CHECKING:
     from .web import serve
@@ -53,6 +54,7 @@ __all__ = [
     "Multiplexer",
     "SPIBus",
     "TerminalView",
+    "Transcript",
     "contact_sheet",
     "find_look",
     "image",

@@ -140,9 +140,9 @@ def page_pointer(pages: int = 8, *, only_in_page_mode: bool = False) -> Commands
         chip.registers.page = sent[0] & 0x0F
 
     return {
-        **dict.fromkeys(range(0x10), Command(0, low, {"column": 0}, points=True)),
-        **dict.fromkeys(range(0x10, 0x20), Command(0, high, {"column": 0}, points=True)),
-        **dict.fromkeys(range(0xB0, 0xB0 + pages), Command(0, page, {"page": 0}, points=True)),
+        **dict.fromkeys(range(0x10), Command(0, low, {"column": 0}, True, "column pointer {column}")),
+        **dict.fromkeys(range(0x10, 0x20), Command(0, high, {"column": 0}, True, "column pointer {column}")),
+        **dict.fromkeys(range(0xB0, 0xB0 + pages), Command(0, page, {"page": 0}, True, "page pointer {page}")),
     }
 
 
@@ -154,7 +154,7 @@ def row_pointer(rows: int) -> Commands:
             chip.complain(f"there is no row past {rows - 1}", sent)
         chip.registers.row = sent[1] % rows
 
-    return {**page_pointer(1), 0xB0: Command(1, row, {"row": 0}, points=True)}
+    return {**page_pointer(1), 0xB0: Command(1, row, {"row": 0}, True, "row pointer {row}")}
 
 
 def _addressing_mode(chip: Any, sent: bytes) -> None:
@@ -167,7 +167,7 @@ def _addressing_mode(chip: Any, sent: bytes) -> None:
 
 
 #: The command with an argument that chooses the addressing mode: 20 of the SSD130x.
-ADDRESSING_MODE = Command(1, _addressing_mode, {"mode": PAGE})
+ADDRESSING_MODE = Command(1, _addressing_mode, {"mode": PAGE}, name="addressing mode: {mode}")
 
 
 def windows(
@@ -196,6 +196,7 @@ def windows(
             registers[axis] = registers[f"{axis}_start"] = start
             registers[f"{axis}_end"] = end
 
-        return Command(2, act, {axis: 0, f"{axis}_start": 0, f"{axis}_end": size - 1}, points=True)
+        registers = {axis: 0, f"{axis}_start": 0, f"{axis}_end": size - 1}
+        return Command(2, act, registers, True, f"{axis}s {{{axis}_start}} to {{{axis}_end}}")
 
     return {column_opcode: command("column", columns), line_opcode: command(line_name, lines)}

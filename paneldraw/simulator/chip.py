@@ -5,10 +5,10 @@ from __future__ import annotations
 import random
 from abc import ABC, abstractmethod
 from collections import deque
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from copy import copy
 from types import MappingProxyType, SimpleNamespace
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar, Protocol
 
 import numpy as np
 
@@ -17,6 +17,8 @@ from .looks import Look, image
 
 if TYPE_CHECKING:
     from PIL.Image import Image
+
+    from .addressing import Place
 
 _STATUS_OFF = 0x40
 _MOST_STEPS = 1000
@@ -29,6 +31,22 @@ def written(sent: Iterable[int]) -> str:
 
 class Registers(SimpleNamespace):
     """The registers of a chip, by name; a chip's command table says which there are."""
+
+
+class Listener(Protocol):
+    """Who is told what a chip makes of the bytes that it is sent."""
+
+    def told(self, kind: str, sent: bytes, meaning: str) -> None:
+        """Note a ``"command"``, ``"violation"``, ``"remark"``, ``"read"`` or ``"power"``, with its bytes, in words."""
+
+    def placed(self, count: int, places: Sequence[Place], down: bool) -> None:
+        """Note data: so many bytes, and the lines and columns that they went to; columns and lines if `down`."""
+
+    def seen(self, frame: Frame) -> None:
+        """Note a frame."""
+
+    def settled(self, seconds: float) -> None:
+        """Note that a call of the bus is over."""
 
 
 class Chip(ABC):
@@ -49,6 +67,8 @@ class Chip(ABC):
         All other state, by name.
     hold : callable or None
         Does something while the bus stands still, having told the chip what time it is; set by the bus.
+    listener : Listener or None
+        Who is told what the chip makes of its bytes: a `Transcript`.
     """
 
     buses: ClassVar[tuple[str, ...]] = ("i2c", "spi")
@@ -67,6 +87,7 @@ class Chip(ABC):
     ) -> None:
         self.width, self.height = width, height
         self.hold: Callable[[Callable[[], object]], None] | None = None
+        self.listener: Listener | None = None
         self._frames: deque[Frame] = deque(maxlen=history)
         self.violations: list[str] = []
         self.remarks: list[str] = []
@@ -83,12 +104,16 @@ class Chip(ABC):
     def power_cycle(self) -> None:
         """Lose power and get it back: registers at reset, RAM undefined (noise from `seed`)."""
         self._end_picture()
+        if self.listener:
+            self.listener.told("power", b"", "power lost and back; what the RAM holds is noise")
         self._lose_ram()
         self.reset()
 
     def reset(self) -> None:
         """Pull the reset pin: registers at reset, a half-sent command forgotten, RAM as it was."""
         self._end_picture()
+        if self.listener:
+            self.listener.told("power", b"", "reset")
         self.registers = Registers(**{name: copy(value) for name, value in self.reset_values.items()})
         self._picture: Picture | None = None
         self._next_step: float | None = None
@@ -111,7 +136,13 @@ class Chip(ABC):
 
     def read(self, length: int) -> bytes:
         """Answer one I2C read: the status byte, `length` times. Bit 6 is set while the display is off."""
-        return bytes([self.status]) * length
+        return self._answer(bytes([self.status]) * length, "status")
+
+    def _answer(self, answer: bytes, meaning: str) -> bytes:
+        """Tell who listens what is read."""
+        if self.listener:
+            self.listener.told("read", answer, meaning)
+        return answer
 
     def settle(self, seconds: float, wire_bytes: int) -> None:
         """Note that a bus call is over: record a frame if the eye sees another picture than before.
@@ -125,6 +156,8 @@ class Chip(ABC):
         wire_bytes : int
             Bytes that this call put on the wire for this chip.
         """
+        if self.listener:
+            self.listener.settled(seconds)
         self._unframed_bytes += wire_bytes
         progress = self._progress
         drew = progress.end_call(seconds, self._unfilled)
@@ -177,6 +210,8 @@ class Chip(ABC):
             self._frames.append(frame)
             self._last = frame, number
             self._unframed_bytes = 0
+            if self.listener:
+                self.listener.seen(frame)
         self._seen = pixels
 
     def _at_rest(self, look: Callable[[], object]) -> None:
@@ -249,11 +284,22 @@ class Chip(ABC):
 
     def complain(self, rule: str, sent: Iterable[int] = ()) -> None:
         """Record a violation, unless its rule was spoken already; `sent` are the bytes that broke it."""
-        _say(self.violations, rule, sent)
+        self._say("violation", self.violations, rule, sent)
 
     def remark(self, rule: str, sent: Iterable[int] = ()) -> None:
         """Record a remark, unless it was made already."""
-        _say(self.remarks, rule, sent)
+        self._say("remark", self.remarks, rule, sent)
+
+    def _say(self, kind: str, texts: list[str], rule: str, sent: Iterable[int]) -> None:
+        if self.listener:
+            self.listener.told(kind, bytes(sent), rule)
+        if not any(text.endswith(rule) for text in texts):
+            texts.append(f"{spelled}: {rule}" if (spelled := written(sent)) else rule)
+
+    def _tell(self, sent: Iterable[int], meaning: str) -> None:
+        """Tell who listens what a command is."""
+        if self.listener:
+            self.listener.told("command", bytes(sent), meaning)
 
     # what a chip says
 
@@ -277,8 +323,3 @@ class Chip(ABC):
     @abstractmethod
     def _look(self) -> Picture:
         """Make a picture of what an eye sees."""
-
-
-def _say(texts: list[str], rule: str, sent: Iterable[int]) -> None:
-    if not any(text.endswith(rule) for text in texts):
-        texts.append(f"{spelled}: {rule}" if (spelled := written(sent)) else rule)

@@ -218,6 +218,31 @@ class DisplayChip(Chip):
         """The RAM as pages of bytes, or rows of cells, column 0 first; what is written to it is in the RAM."""
         return self._addressed[:, :, 0] if self.packing.rows == 8 else self._addressed
 
+    def visible(self) -> tuple[range, range]:
+        """Which column addresses and which lines the glass shows, in the present wiring and setting."""
+        places = np.zeros((2, *self._ram.shape), np.uint8)  # no chip has more than 256
+        places[0] = np.arange(self.columns)[:, None]
+        places[1] = np.arange(self.lines)[:, None, None]
+        if self.remaps_ram and self.segment_remap:
+            places = places[:, :, ::-1]
+        found = []
+        for numbers in places:
+            seen = self._spread(numbers.reshape(self.lines, -1))
+            if not self.remaps_ram and self.segment_remap != self.upright[0]:
+                seen = np.flip(seen, 0 if self.transposed else 1)
+            shown, dark = self._glass.pixels(seen, self)
+            if dark is not None:
+                shown = np.moveaxis(shown, 1 if self.transposed else 0, 0)[~dark]
+            found.append(range(int(shown.min()), int(shown.max()) + 1) if shown.size else range(0))
+        return found[0], found[1]
+
+    def _spread(self, cells: Bytes) -> Bytes:
+        """Numbers of cells, rows and elements, as numbers of pixels."""
+        if self.packing.rows == 1:
+            return cells
+        pixels = cells.repeat(self.packing.rows, axis=0)
+        return pixels[: self.last_rows - self.packing.rows] if self.last_rows < self.packing.rows else pixels
+
     @property
     def frame_seconds(self) -> float:
         """How long the chip takes to show its RAM once: clocks a line and lines by the pace of the oscillator.
@@ -293,6 +318,7 @@ class DisplayChip(Chip):
             return at
         sent = run[at:end]
         if "locked" in self._has and self.registers.locked and sent[0] != 0xFD:
+            self._tell(sent, "not obeyed")
             self.complain("commands are locked; send FD 12 first", sent)
             return end
         self._half_cell = b""
@@ -302,6 +328,8 @@ class DisplayChip(Chip):
             self._end_picture()
             self._picture = None
         command.act(self, sent)
+        if self.listener:
+            self._tell(sent, command.reading(self, sent))
         return end
 
     def _store(self, data: Bytes) -> None:
@@ -330,6 +358,8 @@ class DisplayChip(Chip):
         places, column, line = self._way(len(cells), mode)
         if self._progress.draw(places, down=mode == DOWN):
             self._end_picture()
+        if self.listener:
+            self.listener.placed(len(cells) * self.column_bytes, places, mode == DOWN)
         put(ram.swapaxes(0, 1) if mode == DOWN else ram, places, cells)
         self._picture = None
         self.registers.column = column

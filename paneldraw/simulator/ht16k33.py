@@ -105,19 +105,27 @@ class HT16K33(Chip):
             for byte in data:
                 self._ram[r.pointer] = byte
                 r.pointer = (r.pointer + 1) % _SIZE
+            self._tell(payload, f"{len(data)} bytes of data from address {low}" if data else f"address pointer {low}")
             return
-        if data:
-            self.complain("a command has no data; ignored", payload)
         if kind == 0x20:
             r.oscillator = bool(low & 1)
+            self._tell(payload[:1], f"oscillator {'on' if r.oscillator else 'off'}")
         elif kind == 0x80 and not low & 8:
             r.on, r.blink = bool(low & 1), low >> 1 & 3
+            self._tell(payload[:1], f"display {'on' if r.on else 'off'}, blinking {r.blink}")
         elif kind == 0xA0 and not low & 0x0C:
             r.interrupt = low
+            self._tell(payload[:1], f"interrupt pin {low}")
         elif kind == 0xE0:
             r.dimming = low
-        elif first not in (0x40, 0x60):
+            self._tell(payload[:1], f"dimming {low}")
+        elif first in (0x40, 0x60):
+            self._tell(payload[:1], "keys or interrupts are read next")
+        else:
+            self._tell(payload[:1], "unknown")
             self.complain("not a command of the HT16K33; ignored", payload[:1])
+        if data:
+            self.complain("a command has no data; ignored", payload)
 
     def transfer(self, run: bytes | bytearray | memoryview, data: bool) -> None:
         """Take nothing: there is no SPI."""
@@ -126,7 +134,7 @@ class HT16K33(Chip):
     def read(self, length: int) -> bytes:
         """Answer with the RAM, from the address that was written last."""
         start = self.registers.pointer
-        return bytes(self._ram[(start + number) % _SIZE] for number in range(length))
+        return self._answer(bytes(self._ram[(start + number) % _SIZE] for number in range(length)), "RAM")
 
     # what can be seen
 

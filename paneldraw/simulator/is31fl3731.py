@@ -14,6 +14,19 @@ _FRAMES, _LEDS = 8, 144
 _BLINK_AT, _BRIGHTNESS_AT, _FRAME_END = 0x12, 0x24, 0xB4
 _FUNCTION_PAGE, _PAGE_SELECT = 0x0B, 0xFD
 _MODE, _PICTURE, _OPTIONS, _SHUTDOWN, _FUNCTIONS = 0x00, 0x01, 0x05, 0x0A, 0x0D
+_FUNCTION_NAMES = {
+    _MODE: "mode",
+    _PICTURE: "picture",
+    0x02: "auto play",
+    0x03: "auto play delay",
+    _OPTIONS: "display options",
+    0x06: "audio",
+    0x08: "breath",
+    0x09: "breath",
+    _SHUTDOWN: "out of shutdown",
+    0x0B: "gain",
+    0x0C: "sampling rate",
+}
 _LED_OF = np.arange(_LEDS).reshape(9, 16)
 
 
@@ -114,9 +127,24 @@ class IS31FL3731(Chip):
         if self.registers.page < _FRAMES and self._register < _FRAME_END and len(payload) > 1:
             written = slice(self._register, min(self._register + len(payload) - 1, _FRAME_END))
             self._progress.draw_at((self.registers.page, written))
+        if self.listener:
+            self._tell(payload, self._meaning(payload))
         for byte in payload[1:]:
             self._set(self._register, byte)
             self._register = self._register + 1 & 0xFF
+
+    def _meaning(self, payload: bytes | bytearray | memoryview) -> str:
+        """What a message is, in words."""
+        register, page, count = payload[0], self.registers.page, len(payload) - 1
+        if register == _PAGE_SELECT and count:
+            return f"page {payload[1]:02X}"
+        if page == _FUNCTION_PAGE and register < _FUNCTIONS:
+            name = _FUNCTION_NAMES.get(register, f"register {register:02X}")
+            return f"{name} {payload[1]:02X}" if count else name
+        if page < _FRAMES and register >= _BRIGHTNESS_AT:
+            return f"{count} bytes of brightness on page {page}, from LED {register - _BRIGHTNESS_AT}"
+        kind = "LEDs on and off" if register < _BLINK_AT else "blinking"
+        return f"{count} bytes of {kind} on page {page:02X}, from register {register:02X}"
 
     def _set(self, register: int, value: int) -> None:
         page = self.registers.page
@@ -143,7 +171,7 @@ class IS31FL3731(Chip):
         else:
             memory = self.registers.functions if page == _FUNCTION_PAGE else self._memory[page % _FRAMES]
             held = bytes(memory[self._register : self._register + length])
-        return held.ljust(length, b"\0")[:length]
+        return self._answer(held.ljust(length, b"\0")[:length], f"register {self._register:02X}")
 
     # what can be seen
 

@@ -24,7 +24,7 @@ def address(register: str, count: int) -> Command:
             chip.complain(f"there is no {register} past {count - 1}", sent)
         setattr(chip.registers, register, number % count)
 
-    return Command(0, act, {register: 0}, points=True)
+    return Command(0, act, {register: 0}, True, f"{register} pointer {{{register}}}")
 
 
 # -- The PCD8544
@@ -45,8 +45,11 @@ _REGISTERS: Mapping[str, Any] = {
     "contrast": 0,
 }
 _COMMON: Commands = {
-    0x00: nothing(),
-    **dict.fromkeys(range(0x20, 0x28), Command(0, _function_set, _REGISTERS)),
+    0x00: nothing("no operation"),
+    **dict.fromkeys(
+        range(0x20, 0x28),
+        Command(0, _function_set, _REGISTERS, name="function set: power {on}, vertical {down}, extended {extended}"),
+    ),
 }
 _EXTENDED: Commands = {
     **_COMMON,
@@ -79,7 +82,7 @@ class PCD8544(DisplayChip):
     supply_command = "21 80 and more"
     commands: ClassVar = {
         **_COMMON,
-        **choice("display", 0x08, {0x08: 0x08, 0x09: 0x09, 0x0C: 0x0C, 0x0D: 0x0D}),
+        **choice("display", 0x08, {0x08: 0x08, 0x09: 0x09, 0x0C: 0x0C, 0x0D: 0x0D}, "display mode {display:02X}"),
         **dict.fromkeys(range(0x40, 0x48), address("page", 6)),
         **dict.fromkeys(range(0x80, 0x100), address("column", 84)),
     }
@@ -133,7 +136,7 @@ def _internal_reset(*names: str) -> Command:
         for name in names:
             setattr(chip.registers, name, chip.reset_values[name])
 
-    return Command(0, act)
+    return Command(0, act, name="internal reset")
 
 
 #: What the ST7565, the ST7567 and the UC1701 have in common.
@@ -142,17 +145,22 @@ PAGED: Commands = {
     **DISPLAY,
     **switch("segment_remap", 0xA0),
     **switch("bias", 0xA2),
-    **switch("all_on", 0xA4),
-    **switch("inverted", 0xA6),
-    **choice("com_reversed", False, {opcode: opcode >= 0xC8 for opcode in range(0xC0, 0xD0)}),
+    **switch("all_on", 0xA4, "every pixel lit: {all_on}"),
+    **switch("inverted", 0xA6, "inversion {inverted}"),
+    **choice(
+        "com_reversed",
+        False,
+        {opcode: opcode >= 0xC8 for opcode in range(0xC0, 0xD0)},
+        "reversed COM scan {com_reversed}",
+    ),
     **numbered("resistor_ratio", 0x20, 8),
     **numbered("power", 0x28, 8),
     **numbered("start_line", 0x40, 64),
     0x81: setting("contrast", 0x20, range(64), "the electronic volume is 00 to 3F", mask=0x3F, harmless=True),
-    0xE0: Command(0, modify, {"kept_column": None}),
+    0xE0: Command(0, modify, {"kept_column": None}, name="read-modify-write from column {kept_column}"),
     0xE2: _internal_reset("column", "page", "start_line", "com_reversed", "resistor_ratio", "contrast", "kept_column"),
-    0xE3: nothing(),
-    0xEE: Command(0, end_modify, {"kept_column": None}),
+    0xE3: nothing("no operation"),
+    0xEE: Command(0, end_modify, {"kept_column": None}, name="end of read-modify-write, column pointer {column}"),
     0xF8: setting("booster", 0x00, range(4), "the booster ratio is 00 to 03", mask=0x03),
     0xAC: relative("static indicator of the ST7565"),
     0xAD: relative("static indicator of the ST7565", 1),
@@ -191,8 +199,8 @@ class ST7565(DisplayChip):
     supply_command = "2F"
     commands: ClassVar = {
         **PAGED,
-        0xAC: nothing(),
-        0xAD: nothing(1),
+        0xAC: nothing("static indicator"),
+        0xAD: nothing("static indicator", 1),
     }
 
     def __init__(
@@ -268,8 +276,8 @@ class ST7567(ST7565):
     duties: ClassVar = {(132, 32): 33, (128, 32): 33, (64, 32): 33}
     commands: ClassVar = {
         **PAGED,
-        0x84: nothing(),
-        0x85: nothing(1),
+        0x84: nothing("line inversion"),
+        0x85: nothing("line inversion", 1),
     }
 
 
@@ -299,10 +307,10 @@ class UC1701(ST7565):
     upright = (False, True)
     commands: ClassVar = {
         **PAGED,
-        0xAC: nothing(),
-        0xAD: nothing(1),
+        0xAC: nothing("static indicator"),
+        0xAD: nothing("static indicator", 1),
         0xF8: setting("booster", 0x00, range(2), "the booster ratio is 00 or 01", mask=0x01),
-        0xFA: Command(1, _program, {"wraps": 0}),
+        0xFA: Command(1, _program, {"wraps": 0}, name="program control {1:02X}"),
     }
 
     @property
@@ -369,21 +377,21 @@ class UC1609(DisplayChip):
     commands: ClassVar = {
         **page_pointer(8),
         **DISPLAY,
-        **switch("all_on", 0xA4),
-        **switch("inverted", 0xA6),
+        **switch("all_on", 0xA4, "every pixel lit: {all_on}"),
+        **switch("inverted", 0xA6, "inversion {inverted}"),
         **numbered("temperature", 0x24, 4),
         **numbered("power", 0x28, 8, reset=6),
-        **dict.fromkeys(range(0x30, 0x34), nothing(1)),
+        **dict.fromkeys(range(0x30, 0x34), nothing("test", 1)),
         **numbered("start_line", 0x40, 64),
         0x81: setting("contrast", 0x49),
         **numbered("access", 0x88, 8, reset=1),
         **numbered("frame_rate", 0xA0, 4, reset=1),
         **numbered("mapping", 0xC0, 8),
         0xE2: _internal_reset("column", "page", "start_line", "power", "access", "mapping", "contrast", "multiplex"),
-        0xE3: nothing(),
+        0xE3: nothing("no operation"),
         **numbered("bias", 0xE8, 4, reset=3),
         0xF1: setting("multiplex", 63, range(64), "the last COM line is 00 to 3F", mask=0x3F),
-        **dict.fromkeys((0xF2, 0xF3), nothing(1)),
+        **dict.fromkeys((0xF2, 0xF3), nothing("partial display {1}", 1)),
     }
 
     @property

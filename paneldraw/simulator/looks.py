@@ -82,7 +82,10 @@ class Look:
     def ramp(self, steps: int, *, top: bool = False) -> NDArray[np.uint8]:
         """Return the colors from `dark` to `lit` in even steps, or to `top_lit`: uint8, shape (steps + 1, 3)."""
         dark, lit = _rgb(self.dark), _rgb((self.top_lit if top else None) or self.lit)
-        return np.rint(dark + (lit - dark) * (np.arange(steps + 1) / steps)[:, None]).astype(np.uint8)
+        colors: NDArray[np.uint8] = np.rint(dark + (lit - dark) * (np.arange(steps + 1) / steps)[:, None]).astype(
+            np.uint8
+        )
+        return colors
 
 
 LOOKS: Final[Mapping[str, Look]] = MappingProxyType(
@@ -212,7 +215,8 @@ def _disc(scale: int, gap: int) -> NDArray[np.uint8]:
     places = (np.arange(scale * _FINE) + 0.5) / _FINE - middle
     inside = np.hypot(places[:, None], places) <= radius
     covered = inside.reshape(scale, _FINE, scale, _FINE).mean(axis=(1, 3))
-    return np.rint(covered * _ROUND_SHADES).astype(np.uint8)
+    cell: NDArray[np.uint8] = np.rint(covered * _ROUND_SHADES).astype(np.uint8)
+    return cell
 
 
 def _rgb(color: str) -> NDArray[np.float64]:

@@ -8,7 +8,7 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from .chip import Chip
+from .chip import Chip, written
 from .frames import Picture
 
 _DIGITS = 8
@@ -151,12 +151,16 @@ class MAX7219(Chip):
         if 1 <= registers[0] <= _DIGITS and registers == registers[:1] * self.count:  # as most drivers send
             self.digits[:, registers[0] - 1] = np.frombuffer(values, np.uint8)
             self._progress.draw_at((slice(None), registers[0] - 1))
+            whose = f" of all {self.count} chips" if self.count > 1 else ""
+            self._tell(self._shift, f"digit {registers[0] - 1}{whose}: {written(values)}")
             return
         for chip, (register, value) in enumerate(zip(registers, values, strict=True)):
             self._set(chip, register & 0x0F, value)
 
     def _set(self, chip: int, register: int, value: int) -> None:
         """Set a register of a chip."""
+        if self.listener and not (register == 0 and self.count > 1):
+            self._tell((register, value), self._meaning(chip, register, value))
         if register == 0:
             return
         if register <= _DIGITS:
@@ -169,6 +173,16 @@ class MAX7219(Chip):
             return
         name, mask = _CONTROL[register]
         getattr(self.registers, name)[chip] = value & mask
+
+    def _meaning(self, chip: int, register: int, value: int) -> str:
+        """What a register and its byte are, in words."""
+        if register == 0:
+            return "no operation"
+        if register <= _DIGITS:
+            name = f"digit {register - 1}: {value:02X}"
+        else:
+            name = f"{_CONTROL.get(register, ('no register', 0))[0].replace('_', ' ')} {value:02X}"
+        return f"chip {chip}: {name}" if self.count > 1 else name
 
     # what can be seen
 

@@ -118,7 +118,7 @@ def scroll(across: str, diagonal: str, once: str = "", frames: tuple[int, ...] =
         def act(chip: Any, sent: bytes) -> None:
             chip.registers.scroll = _set_up(chip, sent, layout, frames)
 
-        return Command(len(layout.split()), act, state)
+        return Command(len(layout.split()), act, state, name="scroll set up")
 
     def one(chip: Any, sent: bytes) -> None:
         step = _set_up(chip, sent, once)
@@ -130,8 +130,8 @@ def scroll(across: str, diagonal: str, once: str = "", frames: tuple[int, ...] =
     return {
         **dict.fromkeys((0x26, 0x27), command(across)),
         **dict.fromkeys((0x29, 0x2A), command(diagonal)),
-        **(dict.fromkeys((0x2C, 0x2D), Command(len(once.split()), one)) if once else {}),
-        0x2E: Command(0, _stop, state),
-        0x2F: Command(0, _start, state),
-        0xA3: Command(2, _area, state),
+        **(dict.fromkeys((0x2C, 0x2D), Command(len(once.split()), one, name="scroll by one column")) if once else {}),
+        0x2E: Command(0, _stop, state, name="scroll {scrolling}"),
+        0x2F: Command(0, _start, state, name="scroll {scrolling}"),
+        0xA3: Command(2, _area, state, name="scroll area: {1} fixed rows, {2} scrolling"),
     }

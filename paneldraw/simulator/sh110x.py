@@ -37,12 +37,17 @@ def end_modify(chip: Any, sent: bytes) -> None:
 SINO_WEALTH: Commands = {
     **RELATIVES,
     **ONE_BIT,
-    **choice("com_reversed", False, {opcode: opcode >= 0xC8 for opcode in range(0xC0, 0xD0)}),
+    **choice(
+        "com_reversed",
+        False,
+        {opcode: opcode >= 0xC8 for opcode in range(0xC0, 0xD0)},
+        "reversed COM scan {com_reversed}",
+    ),
     0x81: setting("contrast", 0x80),
-    0xAD: Command(1, _converter, {"converter": 0x8B}),
-    0xDB: setting("vcomh", 0x35),
-    0xE0: Command(0, modify, {"kept_column": None}),
-    0xEE: Command(0, end_modify, {"kept_column": None}),
+    0xAD: Command(1, _converter, {"converter": 0x8B}, name="DC-DC converter {1:02X}"),
+    0xDB: setting("vcomh", 0x35, name="VCOM level {1:02X}"),
+    0xE0: Command(0, modify, {"kept_column": None}, name="read-modify-write from column {kept_column}"),
+    0xEE: Command(0, end_modify, {"kept_column": None}, name="end of read-modify-write, column pointer {column}"),
 }
 
 
@@ -110,7 +115,7 @@ class SH1107(DisplayChip):
     commands: ClassVar = {
         **SINO_WEALTH,
         **page_pointer(16),
-        **choice("mode", PAGE, {0x20: PAGE, 0x21: DOWN}),
+        **choice("mode", PAGE, {0x20: PAGE, 0x21: DOWN}, "addressing mode: {mode}"),
         0x22: relative("windows of the SSD1306", 2, misleads=True),
         **dict.fromkeys(range(0x40, 0x80), relative("start line of the SH1106")),
         0xA8: setting("multiplex", 127, range(128), "the multiplex ratio is 00 to 7F (1 to 128 lines)", mask=0x7F),
@@ -147,12 +152,12 @@ class CH1115(DisplayChip):
         0x20: relative("addressing mode of the SSD1306", 1),
         **dict.fromkeys((0x21, 0x22), relative("windows of the SSD1306", 2, misleads=True)),
         0x23: setting("breathing", 0x00),
-        0x24: nothing(2),
-        **dict.fromkeys((0x26, 0x27), nothing(3)),
-        **dict.fromkeys(range(0x28, 0x2C), nothing()),
-        **dict.fromkeys((0x2E, 0x2F), nothing()),
+        0x24: nothing("scroll window", 2),
+        **dict.fromkeys((0x26, 0x27), nothing("scroll set up", 3)),
+        **dict.fromkeys(range(0x28, 0x2C), nothing("scroll mode")),
+        **dict.fromkeys((0x2E, 0x2F), nothing("scroll off or on")),
         0x82: setting("reference", 0x00, range(8), "the reference takes 00 to 07", harmless=True),
-        **dict.fromkeys((0xA2, 0xA3), nothing()),
+        **dict.fromkeys((0xA2, 0xA3), nothing("output")),
         0xA8: setting("multiplex", 63, range(64), "the multiplex ratio is 00 to 3F (1 to 64 lines)", mask=0x3F),
         0xDB: setting("vcomh", 0x40),
     }

@@ -11,25 +11,27 @@ from .glass import Module
 from .scroll import scroll
 
 COM_PINS = (0x02, 0x12, 0x22, 0x32)
+OFFSET = "display offset {offset}"
 
 #: What the SSD130x and the SH110x have in common: how the RAM comes to the glass, and the timing.
 ONE_BIT: Commands = {
     **DISPLAY,
     **switch("segment_remap", 0xA0),
-    **switch("all_on", 0xA4),
-    **switch("inverted", 0xA6),
-    **choice("com_reversed", False, {0xC0: False, 0xC8: True}),
+    **switch("all_on", 0xA4, "every pixel lit: {all_on}"),
+    **switch("inverted", 0xA6, "inversion {inverted}"),
+    **choice("com_reversed", False, {0xC0: False, 0xC8: True}, "reversed COM scan {com_reversed}"),
     0x81: setting("contrast", 0x7F),
-    0xD3: setting("offset", 0x00, range(64), "the display offset is 00 to 3F", mask=0x3F),
-    0xD5: setting("clock", 0x80),
+    0xD3: setting("offset", 0x00, range(64), "the display offset is 00 to 3F", mask=0x3F, name=OFFSET),
+    0xD5: setting("clock", 0x80, name="clock {1:02X}"),
     0xD9: setting(
         "precharge",
         0x22,
         [n for n in range(256) if n & 0x0F and n & 0xF0],
         "a precharge phase of 0 clocks is invalid",
         harmless=True,
+        name="precharge {1:02X}",
     ),
-    0xE3: nothing(),
+    0xE3: nothing("no operation"),
 }
 
 #: The commands of all relatives of this family, let pass by those that do not have them.
@@ -143,10 +145,19 @@ class SSD1306(DisplayChip):
         **windows(128, 8, 0x21, 0x22, "page", not_in_page_mode=True),
         **numbered("start_line", 0x40, 64),
         0x20: ADDRESSING_MODE,
-        0x8D: Command(1, _charge_pump, {"charge_pump": 0x10}),
+        0x8D: Command(1, _charge_pump, {"charge_pump": 0x10}, name="charge pump {1:02X}"),
         0xA8: setting("multiplex", 63, range(15, 64), "the multiplex ratio is 0F to 3F (16 to 64 lines)", mask=0x3F),
-        0xDA: setting("com_pins", 0x12, COM_PINS, "the COM pins are 02, 12, 22 or 32", harmless=True),
-        0xDB: setting("vcomh", 0x20, (0x00, 0x20, 0x30), "the VCOMH level is 00, 20 or 30", harmless=True),
+        0xDA: setting(
+            "com_pins", 0x12, COM_PINS, "the COM pins are 02, 12, 22 or 32", harmless=True, name="COM pins {1:02X}"
+        ),
+        0xDB: setting(
+            "vcomh",
+            0x20,
+            (0x00, 0x20, 0x30),
+            "the VCOMH level is 00, 20 or 30",
+            harmless=True,
+            name="VCOMH level {1:02X}",
+        ),
     }
 
 
@@ -170,7 +181,14 @@ class SSD1309(SSD1306):
         **SSD1306.commands,
         **scroll("0 p i P - c C", "h p i P v c C", once="0 p b P - c C", frames=(5, 64, 128, 256, 2, 3, 4, 1)),
         0x8D: RELATIVES[0x8D],
-        0xDB: setting("vcomh", 0x34, (0x00, 0x34, 0x3C), "the VCOMH level is 00, 34 or 3C", harmless=True),
+        0xDB: setting(
+            "vcomh",
+            0x34,
+            (0x00, 0x34, 0x3C),
+            "the VCOMH level is 00, 34 or 3C",
+            harmless=True,
+            name="VCOMH level {1:02X}",
+        ),
         0xDC: setting("gpio", 0x02, range(4), "the GPIO takes 00 to 03", harmless=True),
         0xFD: LOCK,
     }
@@ -274,12 +292,21 @@ class SSD1305(SSD1306):
         **windows(132, 8, 0x21, 0x22, "page", not_in_page_mode=True),
         0x82: setting("area_brightness", 0x80),
         0x8D: RELATIVES[0x8D],
-        0x91: nothing(4),
-        **dict.fromkeys((0x92, 0x93), nothing(4)),
-        0xAB: nothing(3),
-        0xAC: Command(0, _dim_on),
+        0x91: nothing("look-up table", 4),
+        **dict.fromkeys((0x92, 0x93), nothing("bank colors", 4)),
+        0xAB: nothing("dim mode", 3),
+        0xAC: Command(0, _dim_on, name="display {on}, dim"),
         0xAD: setting("master", 0x8F, (0x8E, 0x8F), "the master configuration takes 8E or 8F", harmless=True),
-        0xD3: setting("offset", 0x00, range(64), "the display offset is 00 to 3F", mask=0x3F, harmless=True),
+        0xD3: setting(
+            "offset", 0x00, range(64), "the display offset is 00 to 3F", mask=0x3F, harmless=True, name=OFFSET
+        ),
         0xD8: setting("area_color", 0x00),
-        0xDB: setting("vcomh", 0x34, (0x00, 0x34, 0x3C), "the VCOMH level is 00, 34 or 3C", harmless=True),
+        0xDB: setting(
+            "vcomh",
+            0x34,
+            (0x00, 0x34, 0x3C),
+            "the VCOMH level is 00, 34 or 3C",
+            harmless=True,
+            name="VCOMH level {1:02X}",
+        ),
     }

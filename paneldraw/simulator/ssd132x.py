@@ -29,16 +29,21 @@ def _linear(chip: Any, sent: bytes) -> None:
 #: What the SSD132x have in common.
 GREY: Commands = {
     **DISPLAY,
-    **choice("display", 0xA4, {opcode: opcode for opcode in range(0xA4, 0xA8)}),
+    **choice("display", 0xA4, {opcode: opcode for opcode in range(0xA4, 0xA8)}, "display mode {display:02X}"),
     0xAB: setting("regulator", 0x01, (0x00, 0x01), "the regulator takes 00 (external) or 01 (internal)", harmless=True),
     0xB1: setting(
-        "phases", 0x74, [n for n in range(256) if n & 0x0F and n & 0xF0], "a phase of 0 is invalid", harmless=True
+        "phases",
+        0x74,
+        [n for n in range(256) if n & 0x0F and n & 0xF0],
+        "a phase of 0 is invalid",
+        harmless=True,
+        name="phases {1:02X}",
     ),
-    0xB3: setting("clock", 0x00),
+    0xB3: setting("clock", 0x00, name="clock {1:02X}"),
     0xB5: setting("gpio", 0x02),
     0xB6: setting("second_precharge", 0x04, range(1, 16), "the second precharge period is 01 to 0F"),
-    0xB8: Command(15, _greys, {"greys": LINEAR}),
-    0xB9: Command(0, _linear, {"greys": LINEAR}),
+    0xB8: Command(15, _greys, {"greys": LINEAR}, name="gray table"),
+    0xB9: Command(0, _linear, {"greys": LINEAR}, name="linear gray table"),
     0xBE: setting("vcomh", 0x05, range(8), "the VCOMH level is 00 to 07", harmless=True),
     0xFD: LOCK,
 }
@@ -142,12 +147,19 @@ class SSD1327(GreyChip):
     commands: ClassVar = {
         **GREY,
         **windows(64, 128, 0x15, 0x75),
-        **dict.fromkeys((0x26, 0x27), Command(7, _scroll, {"scroll": Scroll(), "scrolling": False})),
-        **dict.fromkeys((0x2E, 0x2F), Command(0, _scroll_run)),
-        **dict.fromkeys((0x84, 0x85, 0x86, 0xB2, 0xB4, 0xBB), nothing()),
+        **dict.fromkeys(
+            (0x26, 0x27), Command(7, _scroll, {"scroll": Scroll(), "scrolling": False}, name="scroll set up")
+        ),
+        **dict.fromkeys((0x2E, 0x2F), Command(0, _scroll_run, name="scroll {scrolling}")),
+        **dict.fromkeys((0x84, 0x85, 0x86, 0xB2, 0xB4, 0xBB), nothing("no operation")),
         0x81: setting("contrast", 0x7F),
         0xA0: setting(
-            "remap", 0x00, [n for n in range(256) if not n & 0xA8], "bits 3, 5 and 7 of the remap are 0", mask=0x57
+            "remap",
+            0x00,
+            [n for n in range(256) if not n & 0xA8],
+            "bits 3, 5 and 7 of the remap are 0",
+            mask=0x57,
+            name="remap {1:02X}",
         ),
         0xA1: setting("start_line", 0x00, range(128), "the start line is 00 to 7F", mask=0x7F),
         0xA2: setting("offset", 0x00, range(128), "the display offset is 00 to 7F", mask=0x7F),
@@ -200,22 +212,27 @@ class SSD1325(GreyChip):
     commands: ClassVar = {
         **{opcode: GREY[opcode] for opcode in (*range(0xA4, 0xA8), 0xAE, 0xAF, 0xB1, 0xB3)},
         **windows(64, 80, 0x15, 0x75),
-        **dict.fromkeys((0x84, 0x85, 0x86, 0xE3), nothing()),
+        **dict.fromkeys((0x84, 0x85, 0x86, 0xE3), nothing("no operation")),
         0x23: setting("drawing", 0x00, range(32), "the drawing options are 00 to 1F", harmless=True),
-        0x24: Command(5, _fill),
-        0x25: nothing(6),
-        0x26: Command(4, _scroll_unseen, {"scroll": Scroll(), "scrolling": False}),
-        **dict.fromkeys((0x2E, 0x2F), Command(0, _scroll_run)),
+        0x24: Command(5, _fill, name="rectangle: columns {1} to {3}, rows {2} to {4}, filled with {5:02X}"),
+        0x25: nothing("copy", 6),
+        0x26: Command(4, _scroll_unseen, {"scroll": Scroll(), "scrolling": False}, name="scroll set up"),
+        **dict.fromkeys((0x2E, 0x2F), Command(0, _scroll_run, name="scroll {scrolling}")),
         0x81: setting("contrast", 0x40, range(128), "the contrast is 00 to 7F", mask=0x7F, harmless=True),
         0xA0: setting(
-            "remap", 0x00, [n for n in range(256) if not n & 0xA8], "bits 3, 5 and 7 of the remap are 0", mask=0x57
+            "remap",
+            0x00,
+            [n for n in range(256) if not n & 0xA8],
+            "bits 3, 5 and 7 of the remap are 0",
+            mask=0x57,
+            name="remap {1:02X}",
         ),
         0xA1: setting("start_line", 0x00, range(80), "the start line is 00 to 4F", mask=0x7F),
         0xA2: setting("offset", 0x00, range(80), "the display offset is 00 to 4F", mask=0x7F, harmless=True),
         0xA8: setting("multiplex", 79, range(15, 80), "the multiplex ratio is 0F to 4F (16 to 80 lines)", mask=0x7F),
         0xAD: setting("master", 0x03, (0x02, 0x03), "the master configuration takes 02 or 03", harmless=True),
-        0xB8: nothing(8),
-        **dict.fromkeys((0xB0, 0xB2, 0xB4, 0xBF), nothing(1)),
+        0xB8: nothing("gray table", 8),
+        **dict.fromkeys((0xB0, 0xB2, 0xB4, 0xBF), nothing("timing {1:02X}", 1)),
         0xB9: relative("linear grey table of the SSD1327"),
         0xBC: setting("precharge_voltage", 0x00),
         0xBE: setting("vcomh", 0x00),
@@ -265,7 +282,11 @@ class SSD1362(GreyChip):
         0x23: setting("fade", 0x00),
         0x81: setting("contrast", 0x7F),
         0xA0: setting(
-            "remap", 0x40, [n for n in range(256) if n & 0x68 == 0x40], "bits 3 and 5 of the remap are 0, bit 6 is 1"
+            "remap",
+            0x40,
+            [n for n in range(256) if n & 0x68 == 0x40],
+            "bits 3 and 5 of the remap are 0, bit 6 is 1",
+            name="remap {1:02X}",
         ),
         0xA1: setting("start_line", 0x00, range(64), "the start line is 00 to 3F", mask=0x3F),
         0xA2: setting("offset", 0x00, range(64), "the display offset is 00 to 3F", mask=0x3F),
@@ -273,7 +294,7 @@ class SSD1362(GreyChip):
         0xAD: setting("reference", 0x8E, (0x8E, 0x9E), "the reference takes 8E or 9E", harmless=True),
         0xBC: setting("precharge_voltage", 0x04, range(32), "the precharge voltage is 00 to 1F", harmless=True),
         0xBD: setting("capacitor", 0x00, (0x00, 0x01), "the capacitor takes 00 or 01", harmless=True),
-        0xE3: nothing(),
+        0xE3: nothing("no operation"),
     }
 
     @property
@@ -332,22 +353,22 @@ class SSD1322(GreyChip):
     all_off, all_lit, inverse = 0xA4, 0xA5, 0xA7
     commands: ClassVar = {
         **GREY,
-        **choice("display", 0xA6, {opcode: opcode for opcode in range(0xA4, 0xA8)}),
+        **choice("display", 0xA6, {opcode: opcode for opcode in range(0xA4, 0xA8)}, "display mode {display:02X}"),
         **windows(120, 128, 0x15, 0x75),
-        0x00: nothing(),
-        0x5C: Command(0, _write_ram, {"writing": False}),
-        0x5D: nothing(),
-        0xA0: Command(2, _remap, {"remap": 0x00, "dual_com": False}),
+        0x00: nothing("gray table in use"),
+        0x5C: Command(0, _write_ram, {"writing": False}, name="data follows"),
+        0x5D: nothing("data is read from the RAM"),
+        0xA0: Command(2, _remap, {"remap": 0x00, "dual_com": False}, name="remap {1:02X} {2:02X}"),
         0xA1: setting("start_line", 0x00, range(128), "the start line is 00 to 7F", mask=0x7F),
         0xA2: setting("offset", 0x00, range(128), "the display offset is 00 to 7F", mask=0x7F),
         0xA8: relative("multiplex ratio of the SSD1327; partial display here", 2),
-        0xA9: nothing(),
-        0xB4: nothing(2),
+        0xA9: nothing("partial display off"),
+        0xB4: nothing("enhancement A", 2),
         0xBB: setting("precharge_voltage", 0x17, range(32), "the precharge voltage is 00 to 1F", harmless=True),
         0xC1: setting("contrast", 0x7F),
         0xC7: setting("master_contrast", 0x0F, range(16), "the master contrast is 00 to 0F", mask=0x0F),
         0xCA: setting("multiplex", 127, range(15, 128), "the multiplex ratio is 0F to 7F (16 to 128 lines)", mask=0x7F),
-        0xD1: nothing(2),
+        0xD1: nothing("enhancement B", 2),
     }
 
     @property

@@ -7,7 +7,7 @@ from typing import Any, ClassVar, Final
 
 import numpy as np
 
-from .addressing import ROWS
+from .addressing import ROWS, Bytes
 from .commands import Command, choice, nothing, numbered
 from .display_chip import DisplayChip
 from .frames import Picture
@@ -24,7 +24,10 @@ def either(basic: Command, extended: Command) -> Command:
     def act(chip: Any, sent: bytes) -> None:
         (extended if chip.registers.extended else basic).act(chip, sent)
 
-    return Command(0, act, {**basic.registers, **extended.registers})
+    def name(chip: Any, sent: bytes) -> str:
+        return (extended if chip.registers.extended else basic).reading(chip, sent)
+
+    return Command(0, act, {**basic.registers, **extended.registers}, name=name)
 
 
 def _function_set(chip: Any, sent: bytes) -> None:
@@ -64,8 +67,13 @@ def _picture_address(chip: Any, sent: bytes) -> None:
     registers.half_address, registers.target = None, "picture"
 
 
-_NOTHING: Final = nothing()
-_ADDRESS: Final = Command(0, _picture_address, {"half_address": None, "row": 0, "column": 0})
+def _address_name(chip: Any, sent: bytes) -> str:
+    r = chip.registers
+    return f"row pointer {r.row}, column pointer {r.column}" if r.half_address is None else f"row {r.half_address}"
+
+
+_NOTHING: Final = nothing("nothing to be seen")
+_ADDRESS: Final = Command(0, _picture_address, {"half_address": None, "row": 0, "column": 0}, name=_address_name)
 
 
 class ST7920(DisplayChip):
@@ -96,20 +104,31 @@ class ST7920(DisplayChip):
     modules: ClassVar = {size: Module() for size in ((128, 64), (128, 32), (144, 32), (160, 32), (192, 32), (256, 32))}
     upright = (False, False)
     commands: ClassVar = {
-        0x01: either(Command(0, _clear, {"text": False, "target": "text"}), _NOTHING),
-        **dict.fromkeys((0x02, 0x03), either(Command(0, _text_address), _NOTHING)),
-        **dict.fromkeys(range(0x04, 0x08), either(Command(0, _entry, {"backwards": False}), _NOTHING)),
+        0x01: either(Command(0, _clear, {"text": False, "target": "text"}, name="clear the text"), _NOTHING),
+        **dict.fromkeys((0x02, 0x03), either(Command(0, _text_address, name="text address {0:02X}"), _NOTHING)),
+        **dict.fromkeys(
+            range(0x04, 0x08),
+            either(Command(0, _entry, {"backwards": False}, name="cursor to the left {backwards}"), _NOTHING),
+        ),
         **{
             n: either(display, _NOTHING)
-            for n, display in choice("on", False, {n: n >= 0x0C for n in range(0x08, 0x10)}).items()
+            for n, display in choice("on", False, {n: n >= 0x0C for n in range(0x08, 0x10)}, "display {on}").items()
         },
         **dict.fromkeys(range(0x10, 0x20), _NOTHING),
-        **dict.fromkeys(range(0x20, 0x40), Command(0, _function_set, {"extended": False, "graphics": False})),
+        **dict.fromkeys(
+            range(0x20, 0x40),
+            Command(
+                0,
+                _function_set,
+                {"extended": False, "graphics": False},
+                name="function set: extended {extended}, graphics {graphics}",
+            ),
+        ),
         **{
-            0x40 + n: either(Command(0, _glyph_address), scroll)
+            0x40 + n: either(Command(0, _glyph_address, name="glyph address {0:02X}"), scroll)
             for n, scroll in enumerate(numbered("scroll_row", 0x40, 64).values())
         },
-        **dict.fromkeys(range(0x80, 0x100), either(Command(0, _text_address), _ADDRESS)),
+        **dict.fromkeys(range(0x80, 0x100), either(Command(0, _text_address, name="text address {0:02X}"), _ADDRESS)),
     }
 
     def reset(self) -> None:
@@ -155,7 +174,10 @@ class ST7920(DisplayChip):
             return
         self._half_cell = b""
         for byte in payload:
-            self._table[byte].act(self, bytes((byte,)))
+            command, sent = self._table[byte], bytes((byte,))
+            command.act(self, sent)
+            if self.listener:
+                self._tell(sent, command.reading(self, sent))
         if not self._progress.pointed:
             self._end_picture()
             self._picture = None
@@ -184,6 +206,8 @@ class ST7920(DisplayChip):
         place = row, slice(column, column + room)
         if self._progress.draw([place]):
             self._end_picture()
+        if self.listener:
+            self.listener.placed(2 * room, [place], False)
         self._ram[place] = np.frombuffer(words, np.uint8, 2 * room).reshape(room, 2)
         self._picture = None
         registers.column = (column + room) % 16
@@ -195,6 +219,9 @@ class ST7920(DisplayChip):
 
     def _levels(self) -> Picture:
         return np.unpackbits(self._ram.reshape(self.lines, -1), axis=1)
+
+    def _spread(self, cells: Bytes) -> Bytes:
+        return cells.repeat(8, axis=1)
 
     @property
     def contrast(self) -> int:
