@@ -171,7 +171,9 @@ def _add_demo(commands: _Commands) -> None:
     about = "\n".join(f"  {name:6} {what}" for name, what in DEMOS.items())
     parser = _command(commands, "demo", _demo, "run an animated demo", f"demos:\n{about}")
     parser.add_argument("name", nargs="?", default="scene", choices=list(DEMOS), metavar="NAME", help="default: scene")
-    parser.add_argument("--save", type=_save_path, metavar="FILE", help="write a .gif, or a .png of one moment")
+    parser.add_argument(
+        "--save", type=_save_path, metavar="FILE", help="write a .gif or .apng, or a .png of one moment"
+    )
     length = parser.add_mutually_exclusive_group()
     length.add_argument(
         "--seconds", type=_positive(float), metavar="N", help="how long, inf for ever; which moment of a .png (10)"
@@ -182,8 +184,8 @@ def _add_demo(commands: _Commands) -> None:
 
 def _save_path(text: str) -> Path:
     path = Path(text)
-    if path.suffix.lower() not in (".gif", ".png"):
-        raise argparse.ArgumentTypeError(f"{text} ends neither in .gif nor in .png")
+    if path.suffix.lower() not in (".gif", ".apng", ".png"):
+        raise argparse.ArgumentTypeError(f"{text} ends in none of .gif, .apng, .png")
     return path
 
 

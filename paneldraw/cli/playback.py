@@ -87,7 +87,7 @@ def play(demo: Demo, panel: Panel, name: str, *, frames: float, fps: float, save
     fps : float
         Frames a second.
     save_to : Path, optional
-        A .gif of all frames, or a .png of the last.
+        A .gif or .apng of all frames, or a .png of the last.
     """
     chip = simulated(panel)
     real_time = save_to is None and (chip is None or sys.stdout.isatty())
@@ -117,7 +117,7 @@ def play(demo: Demo, panel: Panel, name: str, *, frames: float, fps: float, save
         print(caption)
     if save_to:
         with Progress("writing") as progress:
-            save(recording, save_to, progress=progress)
+            save(recording, save_to, look=getattr(chip, "look", None), progress=progress)
         print(f"wrote {save_to}: {_count(drawn, 'frame')}")
 
 

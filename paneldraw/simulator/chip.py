@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import random
 from abc import ABC, abstractmethod
-from collections import deque
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from copy import copy
 from types import MappingProxyType, SimpleNamespace
@@ -12,7 +11,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Protocol
 
 import numpy as np
 
-from .frames import Frame, Picture, Progress
+from .frames import Frame, History, Picture, Progress
 from .looks import Look, image
 
 if TYPE_CHECKING:
@@ -54,10 +53,11 @@ class Chip(ABC):
 
     Attributes
     ----------
-    frames : collections.deque of Frame
-        The whole pictures that were shown, whoever drives the chip; the last one may still be growing. A picture that
-        comes in several calls is one frame, and a call that sets the pointer and writes data is one (`Progress` has
-        the rule); so is a command that changes what is seen. What leaves the panel as it was is none.
+    frames : History of Frame
+        A `collections.deque` of the whole pictures that were shown, whoever drives the chip; the last one may still be
+        growing. A picture that comes in several calls is one frame, and a call that sets the pointer and writes data is
+        one (`Progress` has the rule); so is a command that changes what is seen. What leaves the panel as it was is
+        none.
     violations : list of str
         What the chip was sent against its datasheet and what changes the picture, or may: each rule once, with the
         bytes that broke it first. Clear it as you like.
@@ -88,7 +88,7 @@ class Chip(ABC):
         self.width, self.height = width, height
         self.hold: Callable[[Callable[[], object]], None] | None = None
         self.listener: Listener | None = None
-        self._frames: deque[Frame] = deque(maxlen=history)
+        self._frames = History(history)
         self.violations: list[str] = []
         self.remarks: list[str] = []
         self._random = random.Random(seed)
@@ -237,7 +237,7 @@ class Chip(ABC):
         return self._present()
 
     @property
-    def frames(self) -> deque[Frame]:
+    def frames(self) -> History:
         """The whole pictures that were shown."""
         if self._growing or self._next_step is not None:
             self._at_rest(self._end_picture)

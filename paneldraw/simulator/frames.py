@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import deque
 from dataclasses import dataclass
 from typing import Any
 
@@ -31,6 +32,30 @@ class Frame:
     seconds: float
     wire_bytes: int
     max_level: int = 1
+
+
+class History(deque[Frame]):
+    """Frames in order, of which the oldest give way to new ones.
+
+    Attributes
+    ----------
+    dropped : int
+        How many gave way.
+    began : float or None
+        The `seconds` of the first frame of all, which may have given way.
+    """
+
+    def __init__(self, maxlen: int | None = None) -> None:
+        super().__init__(maxlen=maxlen)
+        self.dropped = 0
+        self.began: float | None = None
+
+    def append(self, frame: Frame) -> None:
+        """Take a frame at the end."""
+        if self.began is None:
+            self.began = frame.seconds
+        self.dropped += len(self) == self.maxlen
+        super().append(frame)
 
 
 class Progress:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
@@ -73,7 +74,7 @@ class Look:
         numpy.ndarray
             Red, green and blue, uint8, shape (height, width, 3).
         """
-        pixels = np.asarray(pixels)
+        pixels = np.minimum(pixels, max_level)
         colors = self.ramp(max_level)[pixels]
         if self.top_rows and self.top_lit:
             colors[: self.top_rows] = self.ramp(max_level, top=True)[pixels[: self.top_rows]]
@@ -154,11 +155,16 @@ def image(pixels: Picture, *, scale: int = 4, max_level: int = 1, look: str | Lo
     >>> image(np.eye(8, dtype=np.uint8), scale=3).size
     (30, 30)
     """
-    return Drawing(scale, max_level, find_look(look)).image(pixels)
+    return _drawing(scale, max_level, find_look(look)).image(pixels)
 
 
-class Drawing:
-    """Draws pictures that are alike in scale, depth and look; what they share is made once.
+@functools.lru_cache(maxsize=16)
+def _drawing(scale: int, max_level: int, look: Look) -> _Drawing:
+    return _Drawing(scale, max_level, look)
+
+
+class _Drawing:
+    """Draws pictures that are alike in scale, depth and look.
 
     Color 0 is the glass; then come, by level, the shades that a pixel has from its edge to its middle; and then the
     same of the top rows of split glass.
@@ -171,11 +177,13 @@ class Drawing:
         if scale < 1 or not 0 <= gap < scale:
             raise ValueError(f"scale is at least 1 and the gap smaller than it, not {scale} and {gap}")
         self._scale = scale
-        self._cell = _disc(scale, gap) if look.round and scale > 2 else _square(scale, gap)
-        self._shades = int(self._cell.max())
+        cell = _disc(scale, gap) if look.round and scale > 2 else _square(scale, gap)
+        self._shades = int(cell.max())
         self._split = look.top_rows if look.top_lit else 0
         self._steps = min(max_level, (_PALETTE - 1) // (self._shades * (2 if self._split else 1)) - 1)
         self._indices = np.rint(np.arange(max_level + 1) * (self._steps / max_level)).astype(np.uint8)
+        first = np.arange((self._steps + 1) * (2 if self._split else 1)) * self._shades
+        self._rows = [np.where(row, first[:, None] + row, 0).astype(np.uint8) for row in cell]
         self._palette = self._colors(look).tobytes()
 
     def _colors(self, look: Look) -> NDArray[np.uint8]:
@@ -189,14 +197,15 @@ class Drawing:
         """Draw a picture."""
         from PIL import Image
 
-        colors = self._indices[np.asarray(pixels)]
+        colors = self._indices[np.minimum(pixels, len(self._indices) - 1)]
         if self._split:
             colors[: self._split] += np.uint8(self._steps + 1)
-        colors = colors * np.uint8(self._shades)
         height, width = colors.shape
-        scale, cell = self._scale, self._cell
+        scale = self._scale
         canvas = np.zeros((height + 2, scale, width + 2, scale), np.uint8)
-        canvas[1:-1, :, 1:-1] = np.where(cell[:, None], colors[:, None, :, None] + cell[:, None], 0)
+        for at, row in enumerate(self._rows):
+            same = at > 0 and np.array_equal(row, self._rows[at - 1])
+            canvas[1:-1, at, 1:-1] = canvas[1:-1, at - 1, 1:-1] if same else row.take(colors, axis=0)
         picture = Image.fromarray(canvas.reshape((height + 2) * scale, (width + 2) * scale))
         picture.putpalette(self._palette)
         return picture

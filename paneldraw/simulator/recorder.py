@@ -1,13 +1,15 @@
-"""A panel's frames as files: PNG, animated GIF, contact sheet."""
+"""A panel's frames as files: PNG, animated GIF and APNG, contact sheet."""
 
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable, Iterator, Sequence
+import warnings
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from itertools import pairwise
-from typing import TYPE_CHECKING, Protocol, runtime_checkable
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any, Final, Protocol, runtime_checkable
 
-from .frames import Frame, Picture
+from .frames import Frame, History, Picture
 from .looks import Look, image
 
 if TYPE_CHECKING:
@@ -15,9 +17,20 @@ if TYPE_CHECKING:
 
 Progress = Callable[[int, int], object]
 
-_SHEET_FRAMES = 48
-_HOLD = 100
-_SHORTEST = 2
+_SHEET_FRAMES: Final = 48
+_HOLD: Final = 1000
+"""Milliseconds that the last frame stays."""
+_SHORTEST: Final = 20
+"""Milliseconds below which viewers do not keep to the time."""
+_ANIMATIONS: Final[Mapping[str, tuple[str, int, Mapping[str, Any]]]] = MappingProxyType(
+    {
+        ".gif": ("GIF", 10, {"optimize": False, "disposal": 1}),
+        ".apng": ("PNG", 1, {"compress_level": 1}),
+    }
+)
+"""By extension: Pillow's name of the format, the milliseconds that its times are counted in, and settings."""
+EXTENSIONS: Final = (*_ANIMATIONS, ".png")
+"""What `save` can write."""
 
 
 @runtime_checkable
@@ -96,38 +109,57 @@ def save(
 ) -> None:
     """Write what a panel showed to a file, as the extension says.
 
-    ``.gif`` is an animation of all frames, with the time that each was seen; the last stays for a second. Frames that
-    were seen for less than 20 ms, which no viewer shows, give way to the next. ``.png`` is one picture: for a chip what
-    it shows now, for frames a contact sheet (for a single frame, that frame).
+    ``.gif`` and ``.apng`` are animations of all frames, with the time that each was seen; the last stays for a second.
+    Frames that were seen for less than 20 ms, which no viewer shows, give way to the next. ``.png`` is one picture: for
+    a chip what it shows now, for frames a contact sheet (for a single frame, that frame).
 
     Parameters
     ----------
     source : chip or iterable of Frame
         A simulated chip, or frames out of its ``frames``.
     path : str or path-like
-        The file, ending in ``.gif`` or ``.png``; it is overwritten.
+        The file, ending in ``.gif``, ``.apng`` or ``.png``; it is overwritten.
     scale : int
         Image pixels a panel pixel. Default: 4.
-    look : Look, optional
-        Colors and gap.
+    look : str or Look, optional
+        A name of `LOOKS` or a look of your own. Default: that of the chip's panels; of frames, white.
     progress : callable, optional
         Called with (frames done, frames in all) as work goes on.
 
     Raises
     ------
     ValueError
-        For another extension, or where there is nothing to save.
+        For another extension or an unknown look, or where there is nothing to save.
     OSError
         Where the file cannot be written.
+
+    Warns
+    -----
+    UserWarning
+        Where a chip showed more than its history keeps: the animation begins later than the panel did.
     """
     kind = os.path.splitext(os.fspath(path))[1].lower()
-    if kind == ".gif":
-        frames = _not_empty(source.frames if isinstance(source, Showing) else source)
-        _save_gif(frames, path, scale, look, progress)
+    if look is None:
+        look = getattr(source, "look", None)
+    if kind in _ANIMATIONS:
+        shown = source.frames if isinstance(source, Showing) else source
+        frames = _not_empty(shown)
+        if isinstance(shown, History) and shown.dropped:
+            warnings.warn(_missing(shown, path), stacklevel=2)
+        _animate(frames, path, kind, scale, look, progress)
     elif kind == ".png":
         _still(source, scale, look, progress).save(path, optimize=True)
     else:
-        raise ValueError(f"path: {os.fspath(path)!r} ends neither in .gif nor in .png")
+        raise ValueError(f"path: {os.fspath(path)!r} ends in none of {', '.join(EXTENSIONS)}")
+
+
+def _missing(frames: History, path: str | os.PathLike[str]) -> str:
+    """What a history lacks, in words."""
+    seconds = frames[0].seconds - (frames.began or 0.0)
+    return (
+        f"{os.fspath(path)} lacks the first {frames.dropped} frames, {seconds:.1f} seconds: the chip keeps the last "
+        f"{frames.maxlen}; make it with history=None, or with a larger one, to keep more"
+    )
 
 
 def _still(source: Showing | Iterable[Frame], scale: int, look: str | Look | None, progress: Progress | None) -> Image:
@@ -139,27 +171,47 @@ def _still(source: Showing | Iterable[Frame], scale: int, look: str | Look | Non
     return contact_sheet(frames, scale=scale, look=look, progress=progress)
 
 
-def _save_gif(
-    frames: list[Frame], path: str | os.PathLike[str], scale: int, look: str | Look | None, progress: Progress | None
+def _animate(
+    frames: list[Frame],
+    path: str | os.PathLike[str],
+    kind: str,
+    scale: int,
+    look: str | Look | None,
+    progress: Progress | None,
 ) -> None:
-    shown = list(_visible(frames))
-    durations = [10 * (later - start) for (start, _), (later, _) in pairwise(shown)] + [10 * _HOLD]
+    name, unit, settings = _ANIMATIONS[kind]
+    shown = list(_visible(frames, unit))
+    durations = [later - start for (start, _), (later, _) in pairwise(shown)] + [_HOLD]
 
-    def pictures() -> Iterator[Image]:
-        for done, (_, frame) in enumerate(shown, 1):
-            yield image(frame.pixels, scale=scale, max_level=frame.max_level, look=look)
-            if progress:
-                progress(done, len(shown))
-
-    rest = pictures()
-    next(rest).save(path, save_all=True, append_images=rest, duration=durations, loop=0, disposal=1, optimize=False)
+    pictures = _Pictures([frame for _, frame in shown], scale, look, progress)
+    first = pictures.draw(0)
+    first.save(path, name, save_all=True, append_images=pictures, duration=durations, loop=0, **settings)
 
 
-def _visible(frames: list[Frame]) -> Iterator[tuple[int, Frame]]:
-    """The frames that stay long enough to be seen, each with its start in hundredths of a second."""
-    start, current = round(100 * frames[0].seconds), frames[0]
+class _Pictures:
+    """The pictures of all frames but the first, drawn as somebody asks: all together they are large."""
+
+    def __init__(self, frames: list[Frame], scale: int, look: str | Look | None, progress: Progress | None) -> None:
+        self._frames, self._scale, self._look = frames, scale, look
+        self._progress = progress
+
+    def draw(self, number: int) -> Image:
+        """Draw a frame."""
+        frame = self._frames[number]
+        picture = image(frame.pixels, scale=self._scale, max_level=frame.max_level, look=self._look)
+        if self._progress:
+            self._progress(number + 1, len(self._frames))
+        return picture
+
+    def __iter__(self) -> Iterator[Image]:
+        return map(self.draw, range(1, len(self._frames)))
+
+
+def _visible(frames: list[Frame], unit: int) -> Iterator[tuple[int, Frame]]:
+    """The frames that stay long enough to be seen, each with its start in milliseconds, whole units of time."""
+    start, current = unit * round(1000 * frames[0].seconds / unit), frames[0]
     for frame in frames[1:]:
-        moment = round(100 * frame.seconds)
+        moment = unit * round(1000 * frame.seconds / unit)
         if moment - start >= _SHORTEST:
             yield start, current
             start = moment
