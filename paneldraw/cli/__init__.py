@@ -113,7 +113,7 @@ def _parser() -> argparse.ArgumentParser:
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
     for add in (
         *(_add_demo, _add_show, _add_text, _add_clear, _add_off, _add_panels, _add_detect, _add_check, _add_info),
-        *(_add_bench, _add_firmware),
+        *(_add_bench, _add_firmware, _add_replay),
     ):
         add(commands)
     return parser
@@ -454,3 +454,9 @@ def _add_firmware(commands: _Commands) -> None:
     from paneldraw.cli import firmware
 
     firmware.add(commands, _positive(int), _positive(float))
+
+
+def _add_replay(commands: _Commands) -> None:
+    from paneldraw.cli import replay
+
+    replay.add(commands, _save_path, _positive(int), _positive(float))

@@ -9,8 +9,10 @@ from .frames import Frame
 from .ht16k33 import HT16K33
 from .is31fl3731 import IS31FL3731
 from .lcd import PCD8544, ST7565, ST7567, UC1609, UC1701
+from .log import Log
 from .looks import LOOKS, Look, find_look, image
 from .max7219 import MAX7219
+from .player import Replayed, replay
 from .recorder import contact_sheet, save
 from .sh110x import CH1115, SH1106, SH1107, SH1122
 from .spi import SPIBus
@@ -50,14 +52,17 @@ __all__ = [
     "UC1701",
     "Frame",
     "I2CBus",
+    "Log",
     "Look",
     "Multiplexer",
+    "Replayed",
     "SPIBus",
     "TerminalView",
     "Transcript",
     "contact_sheet",
     "find_look",
     "image",
+    "replay",
     "save",
     "serve",
     "text",

@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any, Protocol
 
+from . import log
 from .wire import EREMOTEIO, Fault, Wire, check_bus, os_error
 
 _MAX_MESSAGES = 42
@@ -160,6 +161,8 @@ class I2CBus(Wire):
     (6, 1, 8192)
     """
 
+    log_form = "seconds address w/r ack/nak payload"
+
     def __init__(
         self,
         devices: Mapping[int, Device] | None = None,
@@ -177,6 +180,7 @@ class I2CBus(Wire):
         super().__init__(timer)
         self.clock = clock
         self.transactions = 0
+        self._heard: list[log.Message] = []
         self.fd: int | None = None
         self.funcs = 0
         self.address: int | None = None
@@ -413,6 +417,9 @@ class I2CBus(Wire):
                 now = self._elapse((9 * (self.bytes - bytes_before) + started + stops) / self.clock)
                 for device, wire_bytes in touched.values():
                     device.settle(now, wire_bytes)
+                if self._heard and self.log:
+                    self.log.write(log.Call(now, tuple(self._heard)))
+                self._heard.clear()
 
     def _chips(self) -> Iterable[object]:
         for device in self.devices.values():
@@ -440,6 +447,7 @@ class I2CBus(Wire):
         self.bytes += 1
         fault = self._due(part.address) if self._faults else None
         if device is None or (fault and fault.at_byte is None):
+            self._note(part, 0, acknowledged=False)
             self._raise(fault)
             raise os_error(EREMOTEIO)
         size = len(part.payload) if part.length is None else part.length
@@ -450,8 +458,16 @@ class I2CBus(Wire):
             self.bytes += got < size
         else:
             part.answer = device.read(got)
+        self._note(part, got, acknowledged=got == size or part.length is not None)
         if fault is not None:
             self._raise(fault)
+
+    def _note(self, part: _Message, got: int, acknowledged: bool) -> None:
+        """Keep what a message carried for the log."""
+        if self.log:
+            read = part.length is not None
+            payload = part.answer if read else part.payload[:got]
+            self._heard.append(log.Message(part.address, payload, read, acknowledged))
 
     def _raise(self, fault: Fault | None) -> None:
         if fault is None:

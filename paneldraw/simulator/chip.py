@@ -267,6 +267,15 @@ class Chip(ABC):
         return image(self.pixels, scale=scale, max_level=self.max_level, look=look or self.look)
 
     @property
+    def history(self) -> int | None:
+        """How many frames `frames` keeps, the oldest dropped first; None keeps all. It can be set."""
+        return self._frames.maxlen
+
+    @history.setter
+    def history(self, history: int | None) -> None:
+        self._frames = self._frames.resized(history)
+
+    @property
     def status(self) -> int:
         """The status byte."""
         return 0 if self.registers.on else _STATUS_OFF

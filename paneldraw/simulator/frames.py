@@ -57,6 +57,14 @@ class History(deque[Frame]):
         self.dropped += len(self) == self.maxlen
         super().append(frame)
 
+    def resized(self, maxlen: int | None) -> History:
+        """Return one of another length, with as many of the last frames as fit."""
+        other = History(maxlen)
+        other.extend(self)
+        other.dropped = self.dropped + len(self) - len(other)
+        other.began = self.began
+        return other
+
 
 class Progress:
     """Tells where one picture ends and the next begins, from the calls on the bus alone.

@@ -8,6 +8,7 @@ import time
 from collections.abc import Callable, Iterable, Sequence
 from typing import Any, ClassVar, Final, Protocol
 
+from . import log
 from .wire import Fault, Wire, check_bus, os_error
 
 _MOST_VALUES: Final = 4096
@@ -87,6 +88,8 @@ class SPIBus(Wire):
     >>> bus.bytes, bus.messages, int(chip.pixels.sum())
     (4, 1, 8192)
     """
+
+    log_form = "seconds c<hex> d<hex>: a chip select, commands and data"
 
     def __init__(
         self,
@@ -169,8 +172,12 @@ class SPIBus(Wire):
                 for chip in self.chips:
                     chip.reset()
                 self._settle(0, 0)
+                if self.log:
+                    self.log.write(log.Reset(self._now))
             elif line == self.cs and high:
                 self._deselect()
+                if self.log:
+                    self.log.write(log.Select(self._now, ()))
 
     def _carry(self, payload: bytes, seconds: float) -> None:
         """Put the bytes of one chip select on the wire, as far as faults let them."""
@@ -187,19 +194,37 @@ class SPIBus(Wire):
             if fault and fault.then:
                 fault.then()
             self._settle(seconds * sent / len(payload), sent)
+            if self.log:
+                self.log.write(self._heard(payload[:sent], got))
             if fault and fault.errno:
                 raise os_error(fault.errno)
 
-    def _shift(self, run: bytes | None) -> None:
+    @property
+    def _listening(self) -> bool:
+        """Whether a chip takes what is sent."""
         selected = self._level(self.cs) if self.cs is not None else self.spi.cshigh
         listening = selected == getattr(self.chips[0], "cs_high", False) if self.chips else False
-        if not run or not listening or (self.reset is not None and not self._level(self.reset)):
+        return listening and (self.reset is None or self._level(self.reset))
+
+    @property
+    def _data(self) -> bool:
+        """Whether the D/C line is high."""
+        return self.dc is not None and self._level(self.dc)
+
+    def _shift(self, run: bytes | None) -> None:
+        if not run or not self._listening:
             return
-        data = self.dc is not None and self._level(self.dc)
+        data = self._data
         for chip in self.chips:
             if run is None:
                 raise TypeError("chips: in a row of them each but the last must have a data output")
             run = chip.transfer(run, data)
+
+    def _heard(self, sent: bytes, got: int) -> log.Select:
+        """What was sent, for the log, of which so many bytes arrived, if anybody listens."""
+        runs = ((self._data if self._listening else None, sent[:got]), (None, sent[got:]))
+        ends = self.cs is None and not self.spi.no_cs
+        return log.Select(self._now, tuple(run for run in runs if run[1]), ends)
 
     def _chips(self) -> Iterable[object]:
         return self.chips

@@ -6,9 +6,10 @@ import os
 import threading
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from typing import Final
+from typing import ClassVar, Final
 
 from .chip import Chip
+from .log import Log
 
 EREMOTEIO: Final = 121
 _MESSAGE_OF_EREMOTEIO: Final = "Remote I/O error"
@@ -35,7 +36,15 @@ class Fault:
 
 
 class Wire:
-    """Counts, time and faults of a bus; `I2CBus` says what the attributes are."""
+    """Counts, time and faults of a bus; `I2CBus` says what the attributes are.
+
+    Attributes
+    ----------
+    log : Log or None
+        Who writes down what is carried.
+    """
+
+    log_form: ClassVar[str]
 
     def __init__(self, timer: Callable[[], float] | None) -> None:
         self.bytes = 0
@@ -46,6 +55,7 @@ class Wire:
         self._now = 0.0
         self._faults: list[Fault] = []
         self._lock = threading.RLock()
+        self.log: Log | None = None
 
     def idle(self, seconds: float) -> None:
         """Let time pass with the wire at rest, as a script's pause does; the next frame is stamped that much later."""
