@@ -20,6 +20,7 @@ WITHOUT_EXAMPLE = {
     "paneldraw.controllers.Controller",
     "paneldraw.simulator.Frame",
     "paneldraw.simulator.LOOKS",
+    "paneldraw.simulator.Replayed",
     "paneldraw.simulator.contact_sheet",
     "paneldraw.simulator.save",
     "paneldraw.simulator.serve",

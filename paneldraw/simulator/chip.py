@@ -175,8 +175,7 @@ class Chip(ABC):
 
     def wait(self, seconds: float) -> None:
         """Let time pass up to `seconds`: what the chip moves by itself moves on, a frame a step. Buses call this."""
-        period = self._step_seconds
-        if self._next_step is None or not period or seconds < self._next_step:
+        if self._next_step is None or seconds < self._next_step or not (period := self._step_seconds):
             return
         self._end_picture()
         steps = int((seconds - self._next_step) / period) + 1

@@ -90,8 +90,9 @@ def replay(
 
     Examples
     --------
-    >>>     >>> from paneldraw import simulator
-    >>> _ = Path("on.log").write_text("0.000100 3c w ack 008d14a5af\\n")
+    >>> from pathlib import Path
+    >>> from paneldraw import simulator
+    >>> written = Path("on.log").write_text("0.000100 3c w ack 008d14a5af")
     >>> chip = simulator.SSD1306()
     >>> replay("on.log", chip).events, int(chip.pixels.sum())
     (1, 8192)

@@ -370,7 +370,7 @@ ANNOTATION: Final = re.compile(
 
 def sigrok_annotations(text: Text, rate: float | None, say: Say) -> Iterator[Event]:
     """Read annotations of sigrok's I2C decoder."""
-    messages, pending = _Messages(say), None
+    messages, pending, timed = _Messages(say), None, None
     for number, line in text:
         if not line:
             continue
@@ -378,8 +378,8 @@ def sigrok_annotations(text: Text, rate: float | None, say: Say) -> Iterator[Eve
         if not found:
             raise ValueError(f"line {number} is no annotation of sigrok's I2C decoder: {line[:40]!r}")
         what, end = found[3], found[2]
-        if end is None or not rate:
-            say("the annotations do not tell the samplerate: times are not true" + ("" if end is None else "; say it"))
+        if timed is None and not (timed := bool(end and rate)):
+            say("the annotations do not tell the samplerate, so times are not true; say it with --rate")
         seconds = int(end) / (rate or 1e6) if end else messages.seconds + 1e-3
         if what in ("ACK", "NACK"):
             if pending is not None:

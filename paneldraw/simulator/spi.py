@@ -206,15 +206,10 @@ class SPIBus(Wire):
         listening = selected == getattr(self.chips[0], "cs_high", False) if self.chips else False
         return listening and (self.reset is None or self._level(self.reset))
 
-    @property
-    def _data(self) -> bool:
-        """Whether the D/C line is high."""
-        return self.dc is not None and self._level(self.dc)
-
     def _shift(self, run: bytes | None) -> None:
         if not run or not self._listening:
             return
-        data = self._data
+        data = self.dc is not None and self._level(self.dc)
         for chip in self.chips:
             if run is None:
                 raise TypeError("chips: in a row of them each but the last must have a data output")
@@ -222,7 +217,8 @@ class SPIBus(Wire):
 
     def _heard(self, sent: bytes, got: int) -> log.Select:
         """What was sent, for the log, of which so many bytes arrived, if anybody listens."""
-        runs = ((self._data if self._listening else None, sent[:got]), (None, sent[got:]))
+        data = (self.dc is not None and self._level(self.dc)) if self._listening else None
+        runs = ((data, sent[:got]), (None, sent[got:]))
         ends = self.cs is None and not self.spi.no_cs
         return log.Select(self._now, tuple(run for run in runs if run[1]), ends)
 
