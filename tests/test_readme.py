@@ -48,8 +48,9 @@ def test_the_first_script_saves_the_picture_it_shows(tmp_path, glass):
     (tmp_path / "hello.py").write_text(pictures.blocks("python")[0], encoding="utf-8")
     done = subprocess.run([sys.executable, "hello.py"], cwd=tmp_path, capture_output=True, text=True)
     assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
-    saved = np.asarray(Image.open(tmp_path / "hello.png"))
-    assert np.array_equal(saved, np.kron(glass, np.ones((4, 4))))
+    saved, shown = (Image.open(path).convert("RGB") for path in (tmp_path / "hello.png", PROJECT / "docs/hello.png"))
+    assert np.array_equal(saved, shown)
+    assert np.array_equal(saved, simulator.image(glass, look="white").convert("RGB"))
 
 
 def test_the_example_of_a_test_passes_and_can_fail(tmp_path):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -69,9 +70,10 @@ def test_one_frame_as_png_is_that_frame(tmp_path: Path) -> None:
     assert np.array_equal(levels(Image.open(tmp_path / "one.png"), 4, LOOK), frame.pixels)
 
 
-def gif(path: Path) -> tuple[list[NDArray[np.uint8]], list[int]]:
+def animated(path: Path) -> tuple[list[NDArray[np.uint8]], list[int]]:
     pictures, durations = [], []
     with Image.open(path) as animation:
+        assert animation.format == {".gif": "GIF", ".apng": "PNG"}[path.suffix]
         assert animation.info["loop"] == 0
         for index in range(animation.n_frames):
             animation.seek(index)
@@ -80,20 +82,22 @@ def gif(path: Path) -> tuple[list[NDArray[np.uint8]], list[int]]:
     return pictures, durations
 
 
-def test_a_gif_shows_every_frame_for_its_time(tmp_path: Path) -> None:
-    shown = frames(10.0, 10.04, 10.5, 12.0)
+@pytest.mark.parametrize(("name", "times"), [("a.gif", [40, 460, 1500, 1000]), ("a.apng", [43, 457, 1500, 1000])])
+def test_an_animation_shows_every_frame_for_its_time(tmp_path: Path, name: str, times: list[int]) -> None:
+    shown = frames(10.0, 10.043, 10.5, 12.0)
     done: list[tuple[int, int]] = []
-    simulator.save(shown, tmp_path / "a.gif", look=LOOK, progress=lambda n, of: done.append((n, of)))
-    pictures, durations = gif(tmp_path / "a.gif")
-    assert durations == [40, 460, 1500, 1000]
+    simulator.save(shown, tmp_path / name, look=LOOK, progress=lambda n, of: done.append((n, of)))
+    pictures, durations = animated(tmp_path / name)
+    assert durations == times
     assert all(np.array_equal(*pair) for pair in zip(pictures, [f.pixels for f in shown], strict=True))
-    assert done == [(1, 4), (2, 4), (3, 4), (4, 4)]
+    assert done[:4] == [(1, 4), (2, 4), (3, 4), (4, 4)]
 
 
-def test_in_a_gif_a_burst_is_its_last_picture_and_time_does_not_drift(tmp_path: Path) -> None:
+@pytest.mark.parametrize("name", ["burst.gif", "burst.apng"])
+def test_a_burst_is_its_last_picture_and_time_does_not_drift(tmp_path: Path, name: str) -> None:
     shown = frames(*(1 + 0.007 * step for step in range(200)))
-    simulator.save(shown, tmp_path / "burst.gif", look=LOOK)
-    pictures, durations = gif(tmp_path / "burst.gif")
+    simulator.save(shown, tmp_path / name, look=LOOK)
+    pictures, durations = animated(tmp_path / name)
     assert min(durations) >= 20
     assert sum(durations) == pytest.approx(1000 * 0.007 * 199 + 1000, abs=30)
     assert np.array_equal(pictures[-1], shown[-1].pixels)
@@ -105,9 +109,52 @@ def test_a_gif_of_a_chip_is_all_it_showed(tmp_path: Path) -> None:
         send(chip, random_picture(96, 16, step))
         chip.settle(step / 2, 200)
     simulator.save(chip, tmp_path / "chip.gif", look=LOOK)
-    pictures, durations = gif(tmp_path / "chip.gif")
+    pictures, durations = animated(tmp_path / "chip.gif")
     assert durations == [500, 500, 1000]
     assert np.array_equal(pictures[1], chip.frames[1].pixels)
+
+
+@pytest.mark.parametrize("whole", [True, False])
+def test_what_the_history_no_longer_has_is_said(tmp_path: Path, whole: bool) -> None:
+    """Of the chip itself and of its frames; not of those that somebody chose among them, nor of a still."""
+    chip = started(96, 16, history=3)
+    for step in range(8):
+        send(chip, random_picture(96, 16, step))
+        chip.settle(10 + step / 2, 200)
+    with pytest.warns(UserWarning, match=r"a.gif lacks the first 5 frames, 2.5 seconds: the chip keeps the last 3"):
+        simulator.save(chip if whole else chip.frames, tmp_path / "a.gif")
+    with Image.open(tmp_path / "a.gif") as animation:
+        assert getattr(animation, "n_frames", 1) == 3
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        simulator.save(list(chip.frames), tmp_path / "b.gif")
+        simulator.save(chip, tmp_path / "c.png")
+
+
+def test_a_history_can_be_made_longer_and_shorter() -> None:
+    chip = started(96, 16, history=2)
+    for step in range(7):
+        if step == 4:
+            assert (chip.history, len(chip.frames), chip.frames.dropped, chip.frames.began) == (2, 2, 2, 0.0)
+            chip.history = None
+        send(chip, random_picture(96, 16, step))
+        chip.settle(float(step), 200)
+    assert ([frame.seconds for frame in chip.frames], chip.frames.dropped) == ([2.0, 3.0, 4.0, 5.0, 6.0], 2)
+    chip.history = 1
+    assert ([frame.seconds for frame in chip.frames], chip.frames.dropped) == ([6.0], 6)
+
+
+@pytest.mark.parametrize(("name", "look"), [("a.gif", None), ("b.apng", None), ("c.png", None), ("d.gif", "green-led")])
+def test_a_chip_is_saved_in_its_own_look(tmp_path: Path, name: str, look: str | None) -> None:
+    chip = simulator.MAX7219(8, 8)
+    for sent in (b"\x0f\x00", b"\x0b\x07", b"\x0c\x01", b"\x01\xff"):
+        chip.transfer(sent, data=False)
+        chip.deselect()
+        chip.settle(0.5, 2)
+    simulator.save(chip, tmp_path / name, look=look)
+    with Image.open(tmp_path / name) as file:
+        file.seek(getattr(file, "n_frames", 1) - 1)
+        assert file.convert("RGB").getpixel((5, 5)) == ImageColor.getrgb(simulator.LOOKS[look or "red-led"].lit)
 
 
 def test_a_contact_sheet_has_all_frames_in_reading_order(tmp_path: Path) -> None:
@@ -138,12 +185,12 @@ def test_a_long_contact_sheet_takes_frames_at_equal_distances() -> None:
 
 @pytest.mark.parametrize("name", ["a.jpg", "a", "gif"])
 def test_another_extension_is_refused(tmp_path: Path, name: str) -> None:
-    with pytest.raises(ValueError, match=r"neither in \.gif nor in \.png"):
+    with pytest.raises(ValueError, match=r"ends in none of \.gif, \.apng, \.png"):
         simulator.save(frames(1.0), tmp_path / name)
     assert list(tmp_path.iterdir()) == []
 
 
-@pytest.mark.parametrize("name", ["a.gif", "a.png"])
+@pytest.mark.parametrize("name", ["a.gif", "a.apng", "a.png"])
 def test_nothing_shown_is_nothing_saved(tmp_path: Path, name: str) -> None:
     with pytest.raises(ValueError, match="nothing was shown"):
         simulator.save([], tmp_path / name)
