@@ -272,7 +272,7 @@ class Chip(ABC):
 
     @history.setter
     def history(self, history: int | None) -> None:
-        self._frames = self._frames.resized(history)
+        self._at_rest(lambda: setattr(self, "_frames", self._frames.resized(history)))
 
     @property
     def status(self) -> int:
