@@ -65,9 +65,26 @@ def glass_of(script: str) -> Any:
         return np.load(Path(folder, "glass.npy"))
 
 
+def looks() -> Image.Image:
+    """One picture in all looks, their names within."""
+    tiles = []
+    for name in simulator.LOOKS:
+        fb = Framebuffer(88, 40, depth=4)
+        fb.text(name.replace("-", " "), 43, 3, anchor="mt")
+        fb.circle(22, 26, 10, antialias=Supersample(4))
+        fb.lines([(40 + 5 * k, 16, 48 + 4 * k, 36) for k in range(8)], antialias=Supersample(4))
+        tiles.append(simulator.image(fb.pixels, scale=4, max_level=15, look=name))
+    width, height = tiles[0].width + 8, tiles[0].height + 8
+    sheet = Image.new("RGB", (2 * width - 8, -(-len(tiles) // 2) * height - 8), "white")
+    for number, tile in enumerate(tiles):
+        sheet.paste(tile, (number % 2 * width, number // 2 * height))
+    return sheet
+
+
 PICTURES: dict[str, Callable[[], Image.Image]] = {
     "lines.png": lines,
     "hello.png": hello,
+    "looks.png": looks,
     **gallery.pictures(),
     **figures.pictures(),
     **symptoms.pictures(),

@@ -21,10 +21,11 @@ import worked_examples as examples
 from PIL import Image
 
 from paneldraw import ConeFilter, Framebuffer, Supersample
-from paneldraw.cli import check
+from paneldraw.cli import check, main
 from paneldraw.controllers import CHIPS
 from paneldraw.raster.stroke import CAPS, JOINS
 from paneldraw.raster.surface import OPS
+from paneldraw.simulator import LOOKS
 
 DOCS = Path(__file__).parent.parent / "docs"
 NOT_DRAWING = {"antialias", "depth", "height", "max_level", "pixels", "save", "to_image", "width"}
@@ -174,6 +175,33 @@ def test_the_blocks_of_the_page_on_adding_a_chip_run():
     text.text("SSD1308", 0, 0)
     assert np.array_equal(names["chip"].pixels, text.pixels)
     assert names["chip"].violations == []
+
+
+def test_the_page_on_recording_runs_and_prints_what_it_says(monkeypatch, tmp_path, capsys):
+    page = (DOCS / "recording.md").read_text(encoding="utf-8")
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.delenv("PANELDRAW_PANEL", raising=False)
+    names = {}
+    for block in re.findall(r"^```python\n(.*?)^```$", page, re.M | re.S):
+        exec(block, names)
+    log, transcript = re.findall(r"^```text\n(.*?)^```$", page, re.M | re.S)
+    assert capsys.readouterr().out == transcript
+    without_times = [re.sub(r"^[\d.]+ ", "", line) for line in (tmp_path / "panel.log").read_text().splitlines()]
+    assert without_times[:3] == [re.sub(r"^[\d.]+ ", "", line) for line in log.splitlines()]
+    for name, frames in (("now.png", 1), ("all.gif", 4), ("sheet.png", 1)):
+        with Image.open(tmp_path / name) as picture:
+            assert getattr(picture, "n_frames", 1) >= frames, name
+
+
+def test_the_page_on_recording_names_every_look_and_option(capsys):
+    page = (DOCS / "recording.md").read_text(encoding="utf-8")
+    assert set(re.findall(r"`([\w-]+)`", page)) >= set(LOOKS)
+    with Image.open(DOCS / "looks.png") as shown:
+        assert np.array_equal(shown.convert("RGB"), make_pictures.looks()), "run docs/make_pictures.py"
+    with pytest.raises(SystemExit):
+        main(["replay", "--help"])
+    offered = set(re.findall(r"--[a-z]+", capsys.readouterr().out))
+    assert set(re.findall(r"(?<![\w-])--[a-z]+", page)) <= offered
 
 
 # -- The plain loops: what the textbook draws is what the drawing calls draw
