@@ -53,7 +53,7 @@ def add(commands: Any, save_path: Callable[[str], Path], count: Number, rate: Nu
     parser.add_argument("--look", metavar="NAME", help="its look: white, blue, yellow-blue, lcd-green, ...")
     parser.add_argument("--address", type=_hex, metavar="N", help="the panel's on I2C, such as 3c, if several answered")
     parser.add_argument("--bus", type=count, metavar="N", help="of a kernel's trace of several buses")
-    parser.add_argument("--rate", type=rate, metavar="HZ", help="of annotations, which do not tell it")
+    parser.add_argument("--rate", type=rate, metavar="HZ", help="samples a second of a recording that does not tell")
     for name, what in _LINES.items():
         parser.add_argument(f"--{name}", metavar="CHANNEL", help=f"{what}: a channel's name, or its number from 0")
     parser.set_defaults(run=_replay)

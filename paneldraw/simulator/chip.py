@@ -73,6 +73,8 @@ class Chip(ABC):
 
     buses: ClassVar[tuple[str, ...]] = ("i2c", "spi")
     """The buses that the chip can sit on."""
+    has_dc: ClassVar[bool] = True
+    """Whether a pin tells commands from data on SPI."""
     max_level: int = 1
     """The level of a fully lit pixel."""
     look: ClassVar[str] = "white"

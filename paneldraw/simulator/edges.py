@@ -30,6 +30,8 @@ NAMES: Final[Mapping[str, tuple[str, ...]]] = {
     "reset": ("reset", "rst", "res", "reset#", "res#", "nrst", "/reset", "/res"),
 }
 """What people call the lines."""
+NO_DC: Final = "D/C: all bytes are taken for commands"
+"""How everything ends that is said of recordings without the D/C line."""
 _SHORTEST_PAUSE: Final = 20
 """Without a chip select, so many clock periods at rest part what was sent."""
 
@@ -163,7 +165,7 @@ def _message(bits: Bits, say: Say) -> Message | None:
 def _spi(seconds: NDArray[np.float64], wires: Mapping[str, Bits], say: Say, cs_high: bool) -> Iterator[Event]:
     """Chip selects and resets, in order."""
     if "dc" not in wires:
-        say("no channel is D/C: all bytes are taken for commands")
+        say(f"no channel is {NO_DC}")
     rising = np.flatnonzero(wires["clk"][1:] & ~wires["clk"][:-1]) + 1
     if "cs" in wires:
         selected = wires["cs"] == cs_high

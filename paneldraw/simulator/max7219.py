@@ -74,7 +74,7 @@ class MAX7219(Chip):
     """
 
     buses = ("spi",)
-    look = "red-led"
+    has_dc, look = False, "red-led"
     sizes: ClassVar[tuple[tuple[int, int], ...]] = ((32, 8), (8, 8), (64, 8), (64, 16), (32, 32))
 
     def __init__(

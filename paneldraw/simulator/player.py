@@ -76,7 +76,7 @@ def replay(
     bus : int, optional
         The bus of a kernel's trace that is of several.
     rate : float, optional
-        Samples a second of annotations, which do not tell them.
+        Samples a second of annotations, and of a session, that do not tell them.
     lines : mapping of str to str, optional
         Which channel of a logic analyzer, by its name or its number from 0, is ``scl``, ``sda``, ``clk``, ``mosi``,
         ``cs``, ``dc`` or ``reset``. Default: found by their names.
@@ -98,7 +98,12 @@ def replay(
     (1, 8192)
     """
     said: Counter[str] = Counter()
-    settings = _Settings(bus, rate, lines or {}, getattr(chip, "cs_high", False), lambda text: said.update([text]))
+
+    def say(text: str) -> None:
+        if chip.has_dc or edges.NO_DC not in text:
+            said[text] += 1
+
+    settings = _Settings(bus, rate, lines or {}, getattr(chip, "cs_high", False), say)
     try:
         with open(path, "rb") as file:
             form, found = _recognized(file, settings)
@@ -130,7 +135,7 @@ def _recognized(file: IO[bytes], settings: _Settings) -> tuple[str, Iterator[Eve
     magic = file.read(4)
     file.seek(0)
     if magic[:2] == b"PK":
-        samples = recordings.session(file)
+        samples = recordings.session(file, settings.rate)
         return "a sigrok session", edges.decode(samples, settings.lines, settings.say, cs_high=settings.cs_high)
     text = _numbered(gzip.GzipFile(fileobj=file) if magic[:2] == b"\x1f\x8b" else file)  # type: ignore[arg-type]
     beginning = list(itertools.islice(text, _SNIFFED))

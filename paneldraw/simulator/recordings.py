@@ -33,7 +33,7 @@ from typing import IO, Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from .edges import Bits, Samples, Say
+from .edges import NO_DC, Bits, Samples, Say
 from .log import Call, Event, Message, Select
 
 Text = Iterable[tuple[int, str]]
@@ -52,8 +52,8 @@ _SHOWN: Final = 64
 # -- sigrok's session files
 
 
-def session(file: IO[bytes]) -> Samples:
-    """Read a sigrok session file.
+def session(file: IO[bytes], rate: float | None = None) -> Samples:
+    """Read a sigrok session file; `rate` is for one that does not tell its samples a second.
 
     Raises
     ------
@@ -62,12 +62,12 @@ def session(file: IO[bytes]) -> Samples:
     """
     try:
         with zipfile.ZipFile(file) as archive:
-            return _session(archive)
+            return _session(archive, rate)
     except _DAMAGED as error:
         raise ValueError(f"the file is damaged, or no sigrok session: {error}") from None
 
 
-def _session(archive: zipfile.ZipFile) -> Samples:
+def _session(archive: zipfile.ZipFile, rate: float | None) -> Samples:
     names = archive.namelist()
     if "metadata" not in names:
         hint = "; it looks like Saleae's: export it as CSV there" if "meta.json" in names else ""
@@ -83,16 +83,18 @@ def _session(archive: zipfile.ZipFile) -> Samples:
     if device is None:
         raise ValueError("the session has no logic channels, only analog ones or none")
     probes = {int(key[5:]) - 1: name for key, name in device.items() if re.fullmatch(r"probe[1-9]\d{0,2}", key)}
-    size, rate = device.get("unitsize", ""), _rate(device.get("samplerate", ""))
-    if size not in ("1", "2", "4", "8") or not probes or max(probes) >= 8 * int(size) or not rate:
-        raise ValueError("the session's metadata does not say its unitsize, samplerate and probes")
+    size, rate = device.get("unitsize", ""), _rate(device.get("samplerate", "")) or rate
+    if not re.fullmatch("[1-8]", size) or not probes or max(probes) >= 8 * int(size):
+        raise ValueError("the session's metadata does not say its unitsize and probes")
+    if not rate:
+        raise ValueError("the session does not tell its samplerate; say it with --rate")
     stem = re.escape(device["capturefile"])
     parts = sorted(
         (name for name in names if re.fullmatch(rf"{stem}(-\d+)?", name)), key=lambda name: (len(name), name)
     )
     if not parts:
         raise ValueError(f"the session lacks its samples, {device['capturefile']}")
-    numbers, values = _changes(_chunks(archive, parts, int(size)), f"<u{size}", sum(1 << bit for bit in probes))
+    numbers, values = _changes(_chunks(archive, parts, int(size)), int(size), sum(1 << bit for bit in probes))
     channels = sorted(probes)
     return Samples([probes[bit] for bit in channels], numbers / rate, _bits(values, channels))
 
@@ -120,14 +122,24 @@ def _chunks(archive: zipfile.ZipFile, parts: Iterable[str], size: int) -> Iterat
                 yield chunk[:whole]
 
 
-def _changes(chunks: Iterable[bytes], kind: str, mask: int) -> tuple[NDArray[np.int64], NDArray[Any]]:
+def _words(chunk: bytes, size: int) -> NDArray[Any]:
+    """Samples of so many bytes as numbers."""
+    if size in (1, 2, 4, 8):
+        return np.frombuffer(chunk, f"<u{size}")
+    padded = np.zeros((len(chunk) // size, 8), np.uint8)
+    padded[:, :size] = np.frombuffer(chunk, np.uint8).reshape(-1, size)
+    return padded.view("<u8")[:, 0]
+
+
+def _changes(chunks: Iterable[bytes], size: int, mask: int) -> tuple[NDArray[np.int64], NDArray[Any]]:
     """The numbers of the samples at which a channel changes, and what they are."""
     numbers: list[NDArray[np.int64]] = []
     values: list[NDArray[Any]] = []
     start, last, edges = 0, None, 0
     for chunk in filter(None, chunks):
-        samples = np.frombuffer(chunk, kind) & np.array(mask, kind)
-        before = np.concatenate((samples[:1] ^ np.array(mask, kind) if last is None else last, samples[:-1]))
+        words = _words(chunk, size)
+        samples = words & np.array(mask, words.dtype)
+        before = np.concatenate((~samples[:1] if last is None else last, samples[:-1]))
         at = np.flatnonzero(samples != before)
         numbers.append(at + start)
         values.append(samples[at])
@@ -323,7 +335,7 @@ class _Messages:
 
 
 def _table_spi(rows: _Rows, say: Say) -> Iterator[Event]:
-    say("the table does not tell the level of D/C: all bytes are taken for commands")
+    say(f"the table does not tell the level of {NO_DC}")
     payload, seconds = bytearray(), 0.0
     for line, row in rows:
         seconds = _seconds(row["start_time"], line)
@@ -341,7 +353,7 @@ def saleae_analyzer(text: Text, say: Say) -> Iterator[Event]:
     rows = _Rows(text, "Saleae's export")
     spi = "MOSI" in rows.fields
     if spi:
-        say("the export does not tell the level of D/C: all bytes are taken for commands")
+        say(f"the export does not tell the level of {NO_DC}")
     parsed = [(_seconds(row["Time [s]"], line), line, row) for line, row in rows]
     packets = [list(packet) for _, packet in groupby(parsed, key=lambda entry: entry[2]["Packet ID"])]
     if spi:

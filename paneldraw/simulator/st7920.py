@@ -97,7 +97,7 @@ class ST7920(DisplayChip):
     """
 
     buses = ("spi",)
-    look = "lcd-green"
+    has_dc, look = False, "lcd-green"
     cs_high = True
     packing, line_name = ROWS._replace(elements=1), "row"  # bytes, which are spread when they are looked at
     columns, lines, column_bytes = 16, 64, 2

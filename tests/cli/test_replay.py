@@ -73,7 +73,7 @@ def test_channels_are_named_on_the_command_line(run, tmp_path):
     assert_one_line_of_advice(lost, 1)
     assert "say so with --scl and --sda for I2C, or with --clk, --mosi, --cs" in lost.stderr
     done = run("replay", tmp_path / "a.csv", "--chip", "max7219", "--clk", 0, "--cs", 1, "--mosi", "channel 2")
-    assert "recording: no channel is D/C: all bytes are taken for commands\n" in done.stdout
+    assert "recording:" not in done.stdout
     assert (
         "violation: 00 00 00 00 00 00 0F 01: a select takes a register and a byte for each of 4 chips\n" in done.stdout
     )

@@ -93,7 +93,7 @@ def session(samples: Sequence[int], names: Sequence[str], *, parts: int = 3, uni
             "[global]\nsigrok version=0.5.2\n\n[device 1]\ncapturefile=logic-1\n"
             f"total probes={len(names)}\nsamplerate=2 MHz\ntotal analog=0\n{probes}unitsize={unitsize}\n",
         )
-        raw = np.array(samples, f"<u{unitsize}").tobytes()
+        raw = np.array(samples, "<u8").view(np.uint8).reshape(-1, 8)[:, :unitsize].tobytes()
         size = len(raw) // parts + 1  # not a whole number of samples, perhaps
         for number in range(parts):
             archive.writestr(f"logic-1-{number + 1}", raw[number * size : (number + 1) * size])
