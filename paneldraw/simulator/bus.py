@@ -447,7 +447,7 @@ class I2CBus(Wire):
         self.bytes += 1
         fault = self._due(part.address) if self._faults else None
         if device is None or (fault and fault.at_byte is None):
-            self._note(part, 0, acknowledged=False)
+            self._note(part.address, b"", read=part.length is not None, acknowledged=False)
             self._raise(fault)
             raise os_error(EREMOTEIO)
         size = len(part.payload) if part.length is None else part.length
@@ -456,18 +456,17 @@ class I2CBus(Wire):
         if part.length is None:
             device.write(part.payload[:got])
             self.bytes += got < size
+            self._note(part.address, part.payload[:got], read=False, acknowledged=got == size)
         else:
             part.answer = device.read(got)
-        self._note(part, got, acknowledged=got == size or part.length is not None)
+            self._note(part.address, part.answer, read=True, acknowledged=True)
         if fault is not None:
             self._raise(fault)
 
-    def _note(self, part: _Message, got: int, acknowledged: bool) -> None:
+    def _note(self, address: int, payload: bytes, *, read: bool, acknowledged: bool) -> None:
         """Keep what a message carried for the log."""
         if self.log:
-            read = part.length is not None
-            payload = part.answer if read else part.payload[:got]
-            self._heard.append(log.Message(part.address, payload, read, acknowledged))
+            self._heard.append(log.Message(address, payload, read, acknowledged))
 
     def _raise(self, fault: Fault | None) -> None:
         if fault is None:
