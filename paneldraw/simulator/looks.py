@@ -155,16 +155,22 @@ def image(pixels: Picture, *, scale: int = 4, max_level: int = 1, look: str | Lo
     >>> image(np.eye(8, dtype=np.uint8), scale=3).size
     (30, 30)
     """
-    return _drawing(scale, max_level, find_look(look)).image(pixels)
+    from PIL import Image
+
+    drawn = drawing(scale, max_level, find_look(look))
+    picture = Image.fromarray(drawn.colors(pixels))
+    picture.putpalette(drawn.palette)
+    return picture
 
 
 @functools.lru_cache(maxsize=16)
-def _drawing(scale: int, max_level: int, look: Look) -> _Drawing:
-    return _Drawing(scale, max_level, look)
+def drawing(scale: int, max_level: int, look: Look) -> Drawing:
+    """Return what draws pictures that are alike in scale, depth and look."""
+    return Drawing(scale, max_level, look)
 
 
-class _Drawing:
-    """Draws pictures that are alike in scale, depth and look.
+class Drawing:
+    """Draws pictures that are alike in scale, depth and look, in the colors of a `palette`.
 
     Color 0 is the glass; then come, by level, the shades that a pixel has from its edge to its middle; and then the
     same of the top rows of split glass.
@@ -184,19 +190,17 @@ class _Drawing:
         self._indices = np.rint(np.arange(max_level + 1) * (self._steps / max_level)).astype(np.uint8)
         first = np.arange((self._steps + 1) * (2 if self._split else 1)) * self._shades
         self._rows = [np.where(row, first[:, None] + row, 0).astype(np.uint8) for row in cell]
-        self._palette = self._colors(look).tobytes()
+        self.palette = self._mixed(look).tobytes()
 
-    def _colors(self, look: Look) -> NDArray[np.uint8]:
+    def _mixed(self, look: Look) -> NDArray[np.uint8]:
         glass = _rgb(look.glass)
         ramps = [look.ramp(self._steps, top=top) for top in ((False, True) if self._split else (False,))]
         shares = (np.arange(self._shades) + 1) / self._shades
         shaded = glass + (np.vstack(ramps)[:, None] - glass) * shares[:, None]
         return np.vstack([glass[None], np.rint(shaded).reshape(-1, 3)]).astype(np.uint8)
 
-    def image(self, pixels: Picture) -> Image:
-        """Draw a picture."""
-        from PIL import Image
-
+    def colors(self, pixels: Picture) -> NDArray[np.uint8]:
+        """Draw a picture: numbers of the palette's colors."""
         colors = self._indices[np.minimum(pixels, len(self._indices) - 1)]
         if self._split:
             colors[: self._split] += np.uint8(self._steps + 1)
@@ -206,9 +210,7 @@ class _Drawing:
         for at, row in enumerate(self._rows):
             same = at > 0 and np.array_equal(row, self._rows[at - 1])
             canvas[1:-1, at, 1:-1] = canvas[1:-1, at - 1, 1:-1] if same else row.take(colors, axis=0)
-        picture = Image.fromarray(canvas.reshape((height + 2) * scale, (width + 2) * scale))
-        picture.putpalette(self._palette)
-        return picture
+        return canvas.reshape((height + 2) * scale, (width + 2) * scale)
 
 
 def _square(scale: int, gap: int) -> NDArray[np.uint8]:

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import os
 import warnings
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from itertools import pairwise
-from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, Final, Protocol, runtime_checkable
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from typing import TYPE_CHECKING, Final, Protocol, runtime_checkable
 
+import numpy as np
+
+from .animation import FORMS, Animation
 from .frames import Frame, History, Picture
-from .looks import Look, image
+from .looks import Look, drawing, find_look, image
 
 if TYPE_CHECKING:
     from PIL.Image import Image
@@ -22,14 +23,7 @@ _HOLD: Final = 1000
 """Milliseconds that the last frame stays."""
 _SHORTEST: Final = 20
 """Milliseconds below which viewers do not keep to the time."""
-_ANIMATIONS: Final[Mapping[str, tuple[str, int, Mapping[str, Any]]]] = MappingProxyType(
-    {
-        ".gif": ("GIF", 10, {"optimize": False, "disposal": 1}),
-        ".apng": ("PNG", 1, {"compress_level": 1}),
-    }
-)
-"""By extension: Pillow's name of the format, the milliseconds that its times are counted in, and settings."""
-EXTENSIONS: Final = (*_ANIMATIONS, ".png")
+EXTENSIONS: Final = (*FORMS, ".png")
 """What `save` can write."""
 
 
@@ -141,7 +135,7 @@ def save(
     kind = os.path.splitext(os.fspath(path))[1].lower()
     if look is None:
         look = getattr(source, "look", None)
-    if kind in _ANIMATIONS:
+    if kind in FORMS:
         shown = source.frames if isinstance(source, Showing) else source
         frames = _not_empty(shown)
         if isinstance(shown, History) and shown.dropped:
@@ -179,32 +173,34 @@ def _animate(
     look: str | Look | None,
     progress: Progress | None,
 ) -> None:
-    name, unit, settings = _ANIMATIONS[kind]
-    shown = list(_visible(frames, unit))
-    durations = [later - start for (start, _), (later, _) in pairwise(shown)] + [_HOLD]
+    if len({(frame.pixels.shape, frame.max_level) for frame in frames}) > 1:
+        raise ValueError("frames: they are of several panels; save each panel's by themselves")
+    drawn = drawing(scale, frames[0].max_level, find_look(look))
+    parts = list(_timed(frames, FORMS[kind].unit))
+    height, width = drawn.colors(frames[0].pixels).shape
+    with open(path, "wb") as file:
+        animation: Animation = FORMS[kind](file, width, height, drawn.palette, len(parts))
+        for done, (frame, (left, top, right, bottom), milliseconds) in enumerate(parts, 1):
+            colors = drawn.colors(frame.pixels)[top * scale : bottom * scale, left * scale : right * scale]
+            animation.add(colors, left * scale, top * scale, milliseconds)
+            if progress:
+                progress(done, len(parts))
+        animation.close()
 
-    pictures = _Pictures([frame for _, frame in shown], scale, look, progress)
-    first = pictures.draw(0)
-    first.save(path, name, save_all=True, append_images=pictures, duration=durations, loop=0, **settings)
 
-
-class _Pictures:
-    """The pictures of all frames but the first, drawn as somebody asks: all together they are large."""
-
-    def __init__(self, frames: list[Frame], scale: int, look: str | Look | None, progress: Progress | None) -> None:
-        self._frames, self._scale, self._look = frames, scale, look
-        self._progress = progress
-
-    def draw(self, number: int) -> Image:
-        """Draw a frame."""
-        frame = self._frames[number]
-        picture = image(frame.pixels, scale=self._scale, max_level=frame.max_level, look=self._look)
-        if self._progress:
-            self._progress(number + 1, len(self._frames))
-        return picture
-
-    def __iter__(self) -> Iterator[Image]:
-        return map(self.draw, range(1, len(self._frames)))
+def _timed(frames: list[Frame], unit: int) -> Iterator[tuple[Frame, tuple[int, int, int, int], int]]:
+    """The frames that are seen, what changes in each (left, top, right, bottom, with a margin of one) and its time."""
+    seen = list(_visible(frames, unit))
+    height, width = frames[0].pixels.shape
+    begin, frame, box = seen[0][0], seen[0][1], (0, 0, width + 2, height + 2)
+    for start, later in seen[1:]:
+        changed = later.pixels != frame.pixels
+        rows, columns = np.flatnonzero(changed.any(axis=1)), np.flatnonzero(changed.any(axis=0))
+        if rows.size:
+            yield frame, box, start - begin
+            begin, frame = start, later
+            box = int(columns[0]) + 1, int(rows[0]) + 1, int(columns[-1]) + 2, int(rows[-1]) + 2
+    yield frame, box, seen[-1][0] - begin + _HOLD
 
 
 def _visible(frames: list[Frame], unit: int) -> Iterator[tuple[int, Frame]]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import warnings
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -112,6 +113,41 @@ def test_a_gif_of_a_chip_is_all_it_showed(tmp_path: Path) -> None:
     pictures, durations = animated(tmp_path / "chip.gif")
     assert durations == [500, 500, 1000]
     assert np.array_equal(pictures[1], chip.frames[1].pixels)
+
+
+@pytest.mark.parametrize("name", ["a.gif", "a.apng"])
+@given(data=st.data())
+def test_any_frames_are_read_back(tmp_path: Path, name: str, data: st.DataObject) -> None:
+    """Whatever changes from one to the next: nothing, one pixel at an edge, everything; in every look."""
+    picture, shown = np.zeros((8, 16), np.uint8), []
+    for number in range(data.draw(st.integers(1, 6))):
+        for y, x in data.draw(st.lists(st.tuples(st.integers(0, 7), st.integers(0, 15)), max_size=4)):
+            picture[y, x] ^= 1
+        shown.append(simulator.Frame(picture.copy(), number / 2, 1))
+    look = simulator.LOOKS[data.draw(st.sampled_from(sorted(simulator.LOOKS)))]
+    simulator.save(shown, tmp_path / name, scale=3, look=look)
+    different = [shown[0], *(b for a, b in pairwise(shown) if not np.array_equal(a.pixels, b.pixels))]
+    with Image.open(tmp_path / name) as animation:
+        assert getattr(animation, "n_frames", 1) == len(different)
+        for number, frame in enumerate(different):
+            animation.seek(number)
+            assert np.array_equal(
+                animation.convert("RGB"), simulator.image(frame.pixels, scale=3, look=look).convert("RGB")
+            )
+
+
+@pytest.mark.parametrize(("name", "parts"), [("a.gif", [655350, 344650, 1000]), ("a.apng", [1000000, 1000])])
+def test_a_picture_that_stays_for_long(tmp_path: Path, name: str, parts: list[int]) -> None:
+    """Longer than one frame of a GIF can, and longer than an APNG can tell in milliseconds."""
+    simulator.save(frames(1.0, 1001.0), tmp_path / name, look=LOOK)
+    assert animated(tmp_path / name)[1] == parts
+
+
+def test_frames_of_several_panels_are_no_animation(tmp_path: Path) -> None:
+    mixed = [*frames(1.0), simulator.Frame(random_picture(8, 8, 1), 2.0, 1)]
+    with pytest.raises(ValueError, match="of several panels"):
+        simulator.save(mixed, tmp_path / "a.gif")
+    assert not (tmp_path / "a.gif").exists()
 
 
 @pytest.mark.parametrize("whole", [True, False])
