@@ -184,7 +184,7 @@ class SPIBus(Wire):
         with self._lock:
             self._pass_time()
             self.messages += 1
-            fault = self._due()
+            fault = self._due() if self._faults else None
             got = len(payload) if fault is None else fault.reach(len(payload))
             sent = got if fault and fault.errno else len(payload)
             self.bytes += sent
