@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from importlib import import_module
 from typing import TYPE_CHECKING
 
 from .bus import I2CBus, Multiplexer
@@ -12,7 +13,6 @@ from .lcd import PCD8544, ST7565, ST7567, UC1609, UC1701
 from .log import Log
 from .looks import LOOKS, Look, find_look, image
 from .max7219 import MAX7219
-from .player import Replayed, replay
 from .recorder import contact_sheet, save
 from .sh110x import CH1115, SH1106, SH1107, SH1122
 from .spi import SPIBus
@@ -23,6 +23,7 @@ from .terminal import TerminalView, text
 from .transcript import Transcript
 
 if TYPE_CHECKING:
+    from .player import Replayed, replay
     from .web import serve
 
 __all__ = [
@@ -69,10 +70,12 @@ __all__ = [
 ]
 
 
-def __getattr__(name: str) -> object:
-    """Import the web page, and asyncio with it, only where somebody asks for it."""
-    if name == "serve":
-        from .web import serve
+#: Names that are imported only where somebody asks for them, with what they need: asyncio, zipfile.
+_LATER = {"serve": "web", "replay": "player", "Replayed": "player"}
 
-        return serve
+
+def __getattr__(name: str) -> object:
+    """Import what is in `_LATER`."""
+    if name in _LATER:
+        return getattr(import_module(f".{_LATER[name]}", __name__), name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
