@@ -15,7 +15,7 @@ from typing import Any, Final, Literal, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from paneldraw import urls
+from paneldraw import urls, watching
 from paneldraw.care import Care
 from paneldraw.controllers import BUSES, CHIPS, Controller, features
 from paneldraw.driver import Driver
@@ -826,8 +826,11 @@ def open_panel(url: str | None = None) -> Panel:
         ``sim://ssd1306?size=128x64`` a simulated one, whose chip is ``panel.simulated``. Parameters are ``chip`` (a key
         of `paneldraw.controllers.CHIPS`), ``size``, the chip's own ones such as ``column_offset=2``, ``com_pins=0x12``
         and ``mirror_x=1``, ``rotate``, ``contrast``, ``on_close`` and ``updates`` of `Panel`, ``max_message`` of i2c,
-        ``dc`` and ``speed`` of spi, ``reset`` and ``gpiochip`` of both, and ``baudrate`` of serial. Default: what the
-        environment variable PANELDRAW_PANEL says, else ``sim://ssd1306``.
+        ``dc`` and ``speed`` of spi, ``reset`` and ``gpiochip`` of both, and ``baudrate`` of serial. Any panel, real or
+        simulated, can be watched: ``view=terminal``, ``view=web`` or ``view=browser``, at ``listen=0.0.0.0:8306``;
+        ``save=out.gif``, ``.png`` or ``.apng`` records it, and ``look=blue`` is its color; with ``realtime=1`` a
+        simulated one takes the time that a wire takes. Default: what the environment variable PANELDRAW_PANEL says,
+        else ``sim://ssd1306``.
 
     Raises
     ------
@@ -845,6 +848,7 @@ def open_panel(url: str | None = None) -> Panel:
     <Panel ssd1306 128x32, rotate=0>
     """
     wanted = _wanted(url)
+    watch = watching.asked(wanted)
     transport: Transport
     simulated = None
     with contextlib.ExitStack() as unless_done:
@@ -855,15 +859,22 @@ def open_panel(url: str | None = None) -> Panel:
         else:
             controller = wanted.controller
             if wanted.scheme == "sim":
-                transport, simulated = _simulated(wanted)
+                transport, simulated, bus = _simulated(wanted)
             elif wanted.scheme == "spi":
                 transport = SPITransport(int(wanted.bus), **wanted.transport)
             else:
                 transport = I2CTransport(wanted.bus, wanted.address, **wanted.transport)
             unless_done.callback(transport.close)
+        if watch:
+            twin, chip, bus = (None, simulated, bus) if simulated else _simulated(wanted.twin(controller))
+            title = f"{controller.name} {controller.width}x{controller.height}, {wanted.place}"
+            transport = watched = watching.Watched(transport, watch, chip, bus, twin, title)
+            unless_done.callback(transport.close)
         panel = Panel(controller, transport, **wanted.panel)
         unless_done.pop_all()
     panel.simulated = simulated
+    if watch:
+        watching.follow(panel, watched)
     return panel
 
 
@@ -872,14 +883,16 @@ def _wanted(url: str | None) -> urls.PanelURL | urls.SerialURL:
     if url is not None:
         return urls.parse(url)
     named = os.environ.get("PANELDRAW_PANEL")
+    if not named:
+        watching.hint()
     try:
         return urls.parse(named or "sim://ssd1306")
     except ValueError as error:
         raise ValueError(f"the environment variable PANELDRAW_PANEL is {named!r}: {error}") from None
 
 
-def _simulated(wanted: urls.PanelURL) -> tuple[Transport, Any]:
-    """Make a simulated chip, on the first kind of bus that it can sit on, and the transport to it."""
+def _simulated(wanted: urls.PanelURL) -> tuple[Transport, Any, Any]:
+    """Make a simulated chip, on the first kind of bus that it can sit on; return transport, chip and bus."""
     from paneldraw import simulator  # a script with a real panel does not pay for it
 
     controller = wanted.controller
@@ -888,10 +901,11 @@ def _simulated(wanted: urls.PanelURL) -> tuple[Transport, Any]:
         wiring["external_vcc"] = True
     chip = getattr(simulator, controller.name.upper())(controller.width, controller.height, **wiring)
     if "i2c" in controller.buses:
-        return I2CTransport(simulator.I2CBus({wanted.address: chip}), wanted.address), chip
+        wires = simulator.I2CBus({wanted.address: chip})
+        return I2CTransport(wires, wanted.address), chip, wires
     lines: dict[str, Any] = {"dc": None, "reset": None} if controller.registers else {}
     if controller.synced:
         lines = {"dc": None}
     bus = simulator.SPIBus(chip, **lines)
     bus.spi.cshigh = controller.synced
-    return SPITransport(spi=bus.spi, pins=bus.pins, **lines), chip
+    return SPITransport(spi=bus.spi, pins=bus.pins, **lines), chip, bus

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, Final
 from urllib.parse import SplitResult, parse_qsl, unquote, urlencode, urlsplit
 
@@ -29,8 +29,39 @@ _PANEL: Final = {
 _SWITCHES: Final = ("mirror_x", "mirror_y", "mirror_blocks", "charge_pump", "internal_reference", "chained_control")
 _TEXTS: Final = ("order", "first_block", "block_rotation", "board")
 _YES: Final = {"1": True, "true": True, "yes": True, "0": False, "false": False, "no": False}
+_WATCHING: Final = ("view", "save", "look", "listen")
+_VIEWS: Final = ("terminal", "web", "browser")
+_FILES: Final = (".gif", ".png", ".apng")
 _MODULE: Final = ("size", *dict.fromkeys(name for chip in CHIPS.values() for name in chip.parameters))
-_SERIAL: Final = ("baudrate", "chip", *_MODULE, *_PANEL)
+_SERIAL: Final = ("baudrate", "chip", *_MODULE, *_PANEL, *_WATCHING)
+
+
+@dataclass(frozen=True, slots=True)
+class Watch:
+    """How a panel is watched while a script draws on it.
+
+    Attributes
+    ----------
+    views : tuple of str
+        ``"terminal"``, ``"web"``, or ``"browser"``, which is the web page, opened.
+    save : str
+        File that the frames go to in the end; empty for none.
+    look : str, optional
+        A name of `paneldraw.simulator.LOOKS`.
+    realtime : bool
+        Whether a simulated bus takes the time that a wire takes.
+    listen : (str, int or None)
+        Where the web page is: the address, and the port where it must be a certain one.
+    """
+
+    views: tuple[str, ...] = ()
+    save: str = ""
+    look: str | None = None
+    realtime: bool = False
+    listen: tuple[str, int | None] = ("127.0.0.1", None)
+
+    def __bool__(self) -> bool:
+        return bool(self.views or self.save or self.realtime)
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,6 +81,10 @@ class PanelURL:
         What the URL says of the module's wiring, by the names of the chip's parameters.
     transport, panel : dict
         Settings of the transport and of `Panel`, which check them, as the URL has them.
+    watch : Watch
+        How the panel is watched.
+    place : str
+        The URL without its parameters.
     """
 
     scheme: str
@@ -59,6 +94,12 @@ class PanelURL:
     module: dict[str, Any] = field(default_factory=dict)
     transport: dict[str, Any] = field(default_factory=dict)
     panel: dict[str, Any] = field(default_factory=dict)
+    watch: Watch = field(default_factory=Watch)
+    place: str = field(default="", compare=False)
+
+    def twin(self, controller: Controller) -> PanelURL:
+        """Return the URL of a simulated panel that is as this one."""
+        return _simulated(controller, self.module)
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,7 +114,7 @@ class SerialURL:
         Bits a second. Default: what the board likes best.
     query : dict
         The parameters, as they stand in the URL.
-    panel : dict
+    panel, watch, place
         As in `PanelURL`.
     """
 
@@ -81,6 +122,12 @@ class SerialURL:
     baudrate: int | None
     query: dict[str, str]
     panel: dict[str, Any] = field(default_factory=dict)
+    watch: Watch = field(default_factory=Watch)
+    place: str = field(default="", compare=False)
+
+    def twin(self, controller: Controller) -> PanelURL:
+        """Return the URL of a simulated panel that is as this one."""
+        return _simulated(controller, _module(self.query))
 
     def controller(self, device: HelloReply) -> Controller:
         """Return the controller that the URL names or, where it names none, that the board says it has."""
@@ -113,6 +160,10 @@ def parse(url: str) -> PanelURL | SerialURL:
     """
     if not isinstance(url, str):
         raise TypeError(f"url must be a str, not {type(url).__name__}")
+    return replace(_parsed(url), place=url.partition("?")[0])
+
+
+def _parsed(url: str) -> PanelURL | SerialURL:
     parts = urlsplit(url)
     if parts.scheme == "i2c":
         return _i2c(parts)
@@ -121,17 +172,11 @@ def parse(url: str) -> PanelURL | SerialURL:
     if parts.scheme in ("serial", *_PYSERIAL):
         return _serial(parts)
     if parts.scheme == "sim":
-        query = _query(parts, *_MODULE, *_PANEL)
+        query = _query(parts, *_MODULE, *_PANEL, *_WATCHING, "realtime")
         if parts.path.strip("/"):
             raise ValueError(f"url must have the form {_FORMS['sim']}, not {url!r}")
         controller = _controller(parts.netloc or _CHIP, query)
-        return PanelURL(
-            "sim",
-            controller,
-            address=CHIPS[controller.name].address,
-            module=_module(query),
-            panel=_settings(query, _PANEL),
-        )
+        return replace(_simulated(controller, _module(query)), panel=_settings(query, _PANEL), watch=_watch(query))
     raise ValueError(f"url must have the form {' or '.join(_FORMS.values())}, not {url!r}")
 
 
@@ -147,9 +192,13 @@ def serial(port: str) -> SerialURL:
     return _serial(parts) if parts.scheme in ("serial", *_PYSERIAL) else SerialURL(port, None, {})
 
 
+def _simulated(controller: Controller, module: dict[str, Any]) -> PanelURL:
+    return PanelURL("sim", controller, address=CHIPS[controller.name].address, module=module)
+
+
 def _i2c(parts: SplitResult) -> PanelURL:
     lines = ("reset", "gpiochip")
-    query = _query(parts, "chip", *_MODULE, "max_message", *lines, *_PANEL)
+    query = _query(parts, "chip", *_MODULE, "max_message", *lines, *_PANEL, *_WATCHING)
     if parts.netloc:  # 1, 1/0x3c or 1:0x3c
         place, colon, address = parts.netloc.partition(":")
         address = address if colon else parts.path.strip("/")
@@ -174,6 +223,7 @@ def _i2c(parts: SplitResult) -> PanelURL:
         module=_module(query),
         transport=mux | paired | _settings(query, {"max_message": "32"}) | _lines(query, *lines),
         panel=_settings(query, _PANEL),
+        watch=_watch(query),
     )
 
 
@@ -195,7 +245,7 @@ def _multiplexer(place: str) -> tuple[str, dict[str, Any]]:
 
 def _spi(parts: SplitResult) -> PanelURL:
     lines = ("dc", "reset", "gpiochip")
-    query = _query(parts, "chip", *_MODULE, *lines, "speed", *_PANEL)
+    query = _query(parts, "chip", *_MODULE, *lines, "speed", *_PANEL, *_WATCHING)
     bus, _, device = parts.netloc.partition(".")
     if not (bus.isdecimal() and device.isdecimal()) or parts.path.strip("/"):
         raise ValueError(f"url must have the form {_FORMS['spi']}, not {parts.geturl()!r}")
@@ -213,6 +263,7 @@ def _spi(parts: SplitResult) -> PanelURL:
         module=_module(query),
         transport={"device": int(device)} | of_chip | said,
         panel=_settings(query, _PANEL),
+        watch=_watch(query),
     )
 
 
@@ -242,7 +293,48 @@ def _serial(parts: SplitResult) -> SerialURL:
     if "chip" in query:
         _controller(query["chip"], query)
     rate = _number(query["baudrate"], "baudrate", "115200") if "baudrate" in query else None
-    return SerialURL(place, rate, query, _settings(query, _PANEL))
+    return SerialURL(place, rate, query, _settings(query, _PANEL), _watch(query))
+
+
+def views(text: str, name: str = "view") -> tuple[str, ...]:
+    """Read the kinds of view that are asked for, of which there may be several.
+
+    Examples
+    --------
+    >>> views("terminal,web")
+    ('terminal', 'web')
+    """
+    kinds = tuple(dict.fromkeys(text.lower().split(",")))
+    for kind in kinds:
+        if kind not in _VIEWS:
+            raise ValueError(f"{name} must be {' or '.join(_VIEWS)}, not {kind!r}{did_you_mean(kind, _VIEWS)}")
+    return kinds
+
+
+def _watch(query: dict[str, str]) -> Watch:
+    if "save" in query and not query["save"].lower().endswith(_FILES):
+        raise ValueError(f"save must end in {' or '.join(_FILES)}, not {query['save']!r}")
+    if "look" in query:
+        from paneldraw.simulator import find_look
+
+        find_look(query["look"])
+    return Watch(
+        views(query["view"]) if "view" in query else (),
+        query.get("save", ""),
+        query.get("look"),
+        _switch(query, "realtime") if "realtime" in query else False,
+        _listen(query["listen"]) if "listen" in query else Watch().listen,
+    )
+
+
+def _listen(text: str) -> tuple[str, int | None]:
+    """Read an address and a port: ``0.0.0.0:8306``, ``0.0.0.0`` or ``:8306``."""
+    host, colon, port = text.rpartition(":") if not text.endswith("]") else (text, "", "")
+    if not colon:
+        host, port = text, ""
+    if port and not (port.isdecimal() and 0 <= int(port) <= 65535):
+        raise ValueError(f"listen must be like 0.0.0.0:8306, with a port up to 65535, not {text!r}")
+    return host.strip("[]") or "127.0.0.1", int(port) if port else None
 
 
 def _query(parts: SplitResult, *known: str) -> dict[str, str]:

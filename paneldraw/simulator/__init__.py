@@ -21,6 +21,7 @@ from .ssd132x import SSD1322, SSD1325, SSD1327, SSD1362
 from .st7920 import ST7920
 from .terminal import TerminalView, text
 from .transcript import Transcript
+from .views import open_view
 
 if TYPE_CHECKING:
     from .player import Replayed, replay
@@ -63,6 +64,7 @@ __all__ = [
     "contact_sheet",
     "find_look",
     "image",
+    "open_view",
     "replay",
     "save",
     "serve",

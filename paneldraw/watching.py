@@ -1,0 +1,297 @@
+"""Panels that are watched while a script draws on them: live views, recordings, and time as the wire takes it."""
+
+from __future__ import annotations
+
+import contextlib
+import errno
+import os
+import sys
+import threading
+import time
+import weakref
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final, cast
+
+from paneldraw import leaving, urls
+from paneldraw.transports import Cost, Plan, Transport
+
+if TYPE_CHECKING:
+    from paneldraw.panel import Panel
+    from paneldraw.simulator.views import Kind, View
+
+VARIABLE: Final = "PANELDRAW_VIEW"
+"""Environment variable that says how all panels are viewed whose URL says nothing of it."""
+_RECORDED: Final = 100_000_000
+"""Bytes of pixels that a recording may hold."""
+
+_lock = threading.RLock()
+_shared: dict[str, _Shared] = {}
+_files: set[str] = set()
+_hinted = False
+"""What a process has once: views, which its panels share, by their kinds; files that recordings will go to."""
+
+
+def asked(url: urls.PanelURL | urls.SerialURL) -> urls.Watch:
+    """Return how a panel is to be watched, by its URL and else by the environment."""
+    kinds = os.environ.get(VARIABLE)
+    if url.watch.views or not kinds:
+        return url.watch
+    return replace(url.watch, views=urls.views(kinds, f"the environment variable {VARIABLE}"))
+
+
+def hint() -> None:
+    """Say once to a person at a terminal how to see a simulated panel that nobody asked for."""
+    global _hinted
+    if _hinted or os.environ.get(VARIABLE) or sys.stderr is None or not sys.stderr.isatty():
+        return
+    _hinted = True
+    print(
+        "paneldraw: drawing on a simulated SSD1306, as PANELDRAW_PANEL is not set. To watch it, set\n"
+        "  PANELDRAW_PANEL='sim://ssd1306?view=terminal'  (or view=web, or save=out.gif);\n"
+        "  PANELDRAW_PANEL=sim://ssd1306  draws unseen, and says nothing.",
+        file=sys.stderr,
+    )
+
+
+class Watched:
+    """A transport to a panel that is watched: views and recordings end when it is closed.
+
+    Parameters
+    ----------
+    transport : Transport
+        To the panel.
+    watch : Watch
+        What is asked for.
+    chip : chip
+        The simulated chip that is looked at.
+    bus : bus, optional
+        The simulated bus that the chip is on, where it is to take the time that a wire takes.
+    twin : Transport, optional
+        To the chip, where the panel is a real one: it is sent what the panel was sent.
+    title : str, optional
+        What the panel is called.
+    """
+
+    def __init__(
+        self,
+        transport: Transport,
+        watch: urls.Watch,
+        chip: Any,
+        bus: Any = None,
+        twin: Transport | None = None,
+        title: str = "",
+    ) -> None:
+        self._transport, self._chip, self._twin = transport, chip, twin
+        self._look = watch.look
+        self._pace = Pace(lambda: float(bus.seconds)) if watch.realtime else contextlib.nullcontext()
+        self._process = os.getpid()
+        self._kinds: list[str] = []
+        self._file = ""
+        try:
+            if watch.save:
+                self._file = _reserved(watch.save)
+                chip.history = max(chip.history or 0, _RECORDED // (chip.width * chip.height))
+            for kind in watch.views:
+                self._kinds.append(_join(kind, chip, title, watch))
+        except BaseException:
+            self._end()
+            raise
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._transport, name)
+
+    @property
+    def cost(self) -> Cost:
+        """What a message costs on the panel's transport."""
+        return self._transport.cost
+
+    def command(self, payload: bytes) -> int:
+        """Send one command message; return the bytes on the wire."""
+        with self._pace:
+            wire = self._transport.command(payload)
+        if self._twin:
+            self._twin.command(payload)
+        return wire
+
+    def data(self, payload: bytes) -> int:
+        """Send one data message; return the bytes on the wire."""
+        with self._pace:
+            wire = self._transport.data(payload)
+        if self._twin:
+            self._twin.data(payload)
+        return wire
+
+    def batch(self, plan: Plan) -> int:
+        """Send all messages of a plan; return the bytes on the wire."""
+        starts = list(plan.starts[: plan.count])
+        kinds = plan.buffer[starts]
+        with self._pace:
+            wire = self._transport.batch(plan)
+        if self._twin:
+            plan.buffer[starts] = kinds  # where the transport put bytes of its own
+            self._twin.batch(plan)
+        return wire
+
+    def reset(self) -> bool:
+        """Pulse the panel's reset line; return whether there is one."""
+        done = self._transport.reset()
+        if self._twin and done:
+            self._chip.reset()
+        return done
+
+    def close(self) -> None:
+        """Close the transport, end the views and write the recording. Closing twice does nothing."""
+        if os.getpid() != self._process:  # they are the parent's
+            return
+        try:
+            self._transport.close()
+        finally:
+            self._end()
+
+    def describe(self, text: str) -> None:
+        """Say in words what the panel shows."""
+        with _lock:
+            for kind in self._kinds:
+                _shared[kind].view.describe(self._chip, text)
+
+    def _end(self) -> None:
+        file, self._file = self._file, ""
+        try:
+            while self._kinds:
+                _leave(self._kinds.pop(), self._chip)
+        finally:
+            if file:
+                _files.discard(file)
+                _write(self._chip, file, self._look)
+
+
+class Pace:
+    """Makes a call last as long as the wire is busy with it; a context manager.
+
+    Parameters
+    ----------
+    busy : callable
+        Gives the seconds that the wire was busy so far.
+    clock, sleep : callable, optional
+        Default: those of `time`.
+    """
+
+    def __init__(
+        self,
+        busy: Callable[[], float],
+        clock: Callable[[], float] = time.monotonic,
+        sleep: Callable[[float], object] = time.sleep,
+    ) -> None:
+        self._busy, self._clock, self._sleep = busy, clock, sleep
+        self._free = 0.0  # when the wire has carried all that it was given
+
+    def __enter__(self) -> None:
+        self._free = max(self._free, self._clock())
+        self._before = self._busy()
+
+    def __exit__(self, *exception: object) -> None:
+        self._free += self._busy() - self._before
+        self._sleep(max(0.0, self._free - self._clock()))
+
+
+class _Shared:
+    """A view of this process, and whether each of its chips is still drawn on."""
+
+    def __init__(self, view: View) -> None:
+        self.view = view
+        self.chips: dict[Any, tuple[str, bool]] = {}
+
+
+def _join(kind: str, chip: Any, title: str, watch: urls.Watch) -> str:
+    """Show a chip in the view of this process; return what the view is filed under."""
+    from paneldraw.simulator import open_view
+
+    filed = "terminal" if kind == "terminal" else "web"
+    with _lock:
+        if filed not in _shared:
+            host, port = watch.listen
+            view = open_view(cast("Kind", kind), (), host=host, port=port)
+            _shared[filed] = _Shared(view)
+            if view.url:
+                print(f"paneldraw: watch at {view.url}", file=sys.stderr, flush=True)
+        shared = _shared[filed]
+        for other, (name, open_still) in list(shared.chips.items()):
+            if name == title and not open_still:  # a panel that was closed is opened again
+                shared.view.remove(other)
+                del shared.chips[other]
+        shared.view.add(chip, title, watch.look)
+        shared.chips[chip] = (title, True)
+    return filed
+
+
+def _leave(filed: str, chip: Any) -> None:
+    """Know that nobody draws on a chip any more; end the view behind the last. Till then all stay to be seen."""
+    with _lock:
+        shared = _shared[filed]
+        shared.chips[chip] = (shared.chips[chip][0], False)
+        if not any(open_still for _, open_still in shared.chips.values()):
+            del _shared[filed]
+            shared.view.close()
+
+
+def _reserved(name: str) -> str:
+    """Return the file for a recording, which no other one of this process goes to, or raise OSError."""
+    path = Path(name).absolute()
+    if not os.access(path.parent, os.W_OK) or path.is_dir():
+        code = errno.EACCES if path.parent.is_dir() else errno.ENOENT
+        raise OSError(code, f"save={name}: cannot write there; check the folder", str(path))
+    number = 1
+    with _lock:
+        while str(path) in _files:
+            number += 1
+            path = Path(name).absolute().with_stem(f"{Path(name).stem}-{number}")
+        _files.add(str(path))
+    return str(path)
+
+
+def _write(chip: Any, file: str, look: str | None) -> None:
+    from paneldraw.simulator import Frame, save
+
+    frames = list(chip.frames) or [Frame(chip.pixels, 0.0, 0, chip.max_level)]
+    if file.lower().endswith(".png"):  # the last that shone: the end of a script may have left the panel dark
+        frames = [next((frame for frame in reversed(frames) if frame.pixels.any()), frames[-1])]
+    save(frames, file, look=look or chip.look)
+
+
+def follow(panel: Panel, watched: Watched) -> None:
+    """See to it that views and recordings end when the panel does, at the end of the script at the latest."""
+    weakref.finalize(panel, watched.close)
+    leaving.arrange(panel)
+
+
+def describe(panel: Panel, text: str) -> None:
+    """Say in words what a panel shows, for those who listen to the page instead of looking at it.
+
+    Parameters
+    ----------
+    panel : Panel
+        One that nobody watches is no error.
+    text : str
+
+    Examples
+    --------
+    >>> from paneldraw import open_panel
+    >>> panel = open_panel("sim://ssd1306")
+    >>> describe(panel, "21 °C, rising")
+    """
+    if isinstance(panel.transport, Watched):
+        panel.transport.describe(text)
+
+
+def _in_child() -> None:
+    """Know, in a forked child, that all views are the parent's."""
+    global _lock
+    _lock = threading.RLock()
+    _shared.clear()
+    _files.clear()
+
+
+if hasattr(os, "register_at_fork"):
+    os.register_at_fork(after_in_child=_in_child)
