@@ -19,6 +19,8 @@ _ENDING: Final = [getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if has
 _left: weakref.WeakSet[Panel] = weakref.WeakSet()
 _all: weakref.WeakSet[Panel] = weakref.WeakSet()
 _installed = False
+ending = False
+"""Whether a signal is ending the script: nothing may be waited for any more."""
 
 
 def follow(panel: Panel) -> None:
@@ -51,6 +53,8 @@ def _close_all() -> None:
 
 def _end(number: int, frame: FrameType | None) -> None:
     """Close all panels, then let the signal do what it would have done."""
+    global ending
+    ending = True
     signal.signal(number, signal.SIG_DFL)
 
     def finish() -> None:

@@ -12,7 +12,7 @@ import weakref
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final, cast
+from typing import TYPE_CHECKING, Any, Final
 
 from paneldraw import leaving, urls
 from paneldraw.transports import Cost, Plan, Transport
@@ -25,6 +25,10 @@ VARIABLE: Final = "PANELDRAW_VIEW"
 """Environment variable that says how all panels are viewed whose URL says nothing of it."""
 _RECORDED: Final = 100_000_000
 """Bytes of pixels that a recording may hold."""
+_PATIENCE: Final = 60.0
+"""Seconds that the page of a script that is over waits for its first browser."""
+_SOON: Final = 2.0
+"""Seconds within which a browser that was opened usually comes."""
 
 _lock = threading.RLock()
 _shared: dict[str, _Shared] = {}
@@ -72,6 +76,10 @@ class Watched:
         To the chip, where the panel is a real one: it is sent what the panel was sent.
     title : str, optional
         What the panel is called.
+
+    Attributes
+    ----------
+    chip : chip
     """
 
     def __init__(
@@ -83,7 +91,8 @@ class Watched:
         twin: Transport | None = None,
         title: str = "",
     ) -> None:
-        self._transport, self._chip, self._twin = transport, chip, twin
+        self.chip = chip
+        self._transport, self._twin = transport, twin
         self._look = watch.look
         self._pace = Pace(lambda: float(bus.seconds)) if watch.realtime else contextlib.nullcontext()
         self._process = os.getpid()
@@ -138,7 +147,7 @@ class Watched:
         """Pulse the panel's reset line; return whether there is one."""
         done = self._transport.reset()
         if self._twin and done:
-            self._chip.reset()
+            self.chip.reset()
         return done
 
     def close(self) -> None:
@@ -154,17 +163,17 @@ class Watched:
         """Say in words what the panel shows."""
         with _lock:
             for kind in self._kinds:
-                _shared[kind].view.describe(self._chip, text)
+                _shared[kind].view.describe(self.chip, text)
 
     def _end(self) -> None:
         file, self._file = self._file, ""
         try:
             while self._kinds:
-                _leave(self._kinds.pop(), self._chip)
+                _leave(self._kinds.pop(), self.chip)
         finally:
             if file:
                 _files.discard(file)
-                _write(self._chip, file, self._look)
+                _write(self.chip, file, self._look)
 
 
 class Pace:
@@ -174,26 +183,19 @@ class Pace:
     ----------
     busy : callable
         Gives the seconds that the wire was busy so far.
-    clock, sleep : callable, optional
-        Default: those of `time`.
     """
 
-    def __init__(
-        self,
-        busy: Callable[[], float],
-        clock: Callable[[], float] = time.monotonic,
-        sleep: Callable[[float], object] = time.sleep,
-    ) -> None:
-        self._busy, self._clock, self._sleep = busy, clock, sleep
+    def __init__(self, busy: Callable[[], float]) -> None:
+        self._busy = busy
         self._free = 0.0  # when the wire has carried all that it was given
 
     def __enter__(self) -> None:
-        self._free = max(self._free, self._clock())
+        self._free = max(self._free, time.monotonic())
         self._before = self._busy()
 
     def __exit__(self, *exception: object) -> None:
         self._free += self._busy() - self._before
-        self._sleep(max(0.0, self._free - self._clock()))
+        time.sleep(max(0.0, self._free - time.monotonic()))
 
 
 class _Shared:
@@ -202,20 +204,37 @@ class _Shared:
     def __init__(self, view: View) -> None:
         self.view = view
         self.chips: dict[Any, tuple[str, bool]] = {}
+        self.opened = False
+        if view.url:
+            print(f"paneldraw: watch at {view.url}", file=sys.stderr, flush=True)
+
+    def open_browser(self) -> None:
+        """Show the page in a browser, once."""
+        import webbrowser
+
+        if not self.opened:
+            self.opened = webbrowser.open(self.view.url)
+
+    def close(self) -> None:
+        """End the view; a page waits first for a browser, if none came and a person is there who may open one."""
+        waits = self.opened or (sys.stderr is not None and sys.stderr.isatty())
+        failed = leaving.ending or sys.exc_info()[0] is not None or hasattr(sys, "last_type")
+        if self.view.url and waits and not failed and not self.view.wait(_SOON if self.opened else 0):
+            print("paneldraw: the last picture waits there for a browser; Ctrl-C ends that", file=sys.stderr, flush=True)
+            with contextlib.suppress(KeyboardInterrupt):
+                self.view.wait(_PATIENCE)
+        self.view.close()
 
 
 def _join(kind: str, chip: Any, title: str, watch: urls.Watch) -> str:
     """Show a chip in the view of this process; return what the view is filed under."""
     from paneldraw.simulator import open_view
 
-    filed = "terminal" if kind == "terminal" else "web"
+    filed: Kind = "terminal" if kind == "terminal" else "web"
     with _lock:
         if filed not in _shared:
             host, port = watch.listen
-            view = open_view(cast("Kind", kind), (), host=host, port=port)
-            _shared[filed] = _Shared(view)
-            if view.url:
-                print(f"paneldraw: watch at {view.url}", file=sys.stderr, flush=True)
+            _shared[filed] = _Shared(open_view(filed, (), host=host, port=port))
         shared = _shared[filed]
         for other, (name, open_still) in list(shared.chips.items()):
             if name == title and not open_still:  # a panel that was closed is opened again
@@ -223,6 +242,8 @@ def _join(kind: str, chip: Any, title: str, watch: urls.Watch) -> str:
                 del shared.chips[other]
         shared.view.add(chip, title, watch.look)
         shared.chips[chip] = (title, True)
+        if kind == "browser":
+            shared.open_browser()
     return filed
 
 
@@ -231,13 +252,17 @@ def _leave(filed: str, chip: Any) -> None:
     with _lock:
         shared = _shared[filed]
         shared.chips[chip] = (shared.chips[chip][0], False)
-        if not any(open_still for _, open_still in shared.chips.values()):
-            del _shared[filed]
-            shared.view.close()
+        if any(open_still for _, open_still in shared.chips.values()):
+            return
+        del _shared[filed]
+    shared.close()
 
 
 def _reserved(name: str) -> str:
     """Return the file for a recording, which no other one of this process goes to, or raise OSError."""
+    from PIL import Image, ImageColor  # noqa: F401 - all that writes a file is there before an interpreter is ending
+
+    Image.preinit()
     path = Path(name).absolute()
     if not os.access(path.parent, os.W_OK) or path.is_dir():
         code = errno.EACCES if path.parent.is_dir() else errno.ENOENT

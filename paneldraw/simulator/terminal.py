@@ -125,7 +125,7 @@ class Palette:
         return Palette(256 if "256" in kind else 0)
 
     def codes(self, colors: NDArray[np.uint8]) -> NDArray[np.int64]:
-        """Return a number for every color, shape (..., 3), such that colors that the terminal takes for one have one."""
+        """Return the number that the terminal has for every color, shape (..., 3), or for the one most like it."""
         wide = colors.astype(np.int64)
         if self.colors > 256:
             packed: NDArray[np.int64] = (wide << (16, 8, 0)).sum(-1)
@@ -456,6 +456,10 @@ class LiveTerminal:
 
     def describe(self, chip: Showing, text: str) -> None:
         """Words are for those who do not see; here the picture is all there is."""
+
+    def wait(self, timeout: float) -> bool:
+        """Who looks at the terminal is there already."""
+        return True
 
     def close(self) -> None:
         """Draw what was shown last, and leave the terminal in order."""

@@ -10,7 +10,7 @@ from .frames import Frame, Picture
 from .looks import Look, find_look
 from .recorder import Showing
 
-Kind = Literal["terminal", "web", "browser"]
+Kind = Literal["terminal", "web"]
 
 BEAT: Final = 1 / 30
 """Seconds between two looks at a chip."""
@@ -101,6 +101,9 @@ class View(Protocol):
     def describe(self, chip: Showing, text: str) -> None:
         """Say in words what a chip shows."""
 
+    def wait(self, timeout: float) -> bool:
+        """Wait until somebody may have seen a picture, for so many seconds at most; return whether."""
+
     def close(self) -> None:
         """End the view; closing twice does nothing."""
 
@@ -122,8 +125,8 @@ def open_view(
 
     Parameters
     ----------
-    kind : {"terminal", "web", "browser"}
-        In the terminal that standard output is, on a web page, or on a web page that is opened in a browser.
+    kind : {"terminal", "web"}
+        In the terminal that standard output is, or on a web page.
     chips : sequence of chip
         Simulated chips; `View.add` takes more.
     names : sequence of str, optional
@@ -143,7 +146,7 @@ def open_view(
     Raises
     ------
     ValueError
-        Another kind, an unknown look or a port that there is none of.
+        For another kind, an unknown look or a port that there is none of.
     ImportError
         A web page without aiohttp.
     OSError
@@ -161,16 +164,12 @@ def open_view(
         from .terminal import LiveTerminal
 
         view: Any = LiveTerminal()
-    elif kind in ("web", "browser"):
+    elif kind == "web":
         view = _page(host, port)
     else:
-        raise ValueError(f"kind: {kind!r} is none of terminal, web, browser")
+        raise ValueError(f"kind: {kind!r} is neither terminal nor web")
     for number, chip in enumerate(chips):
         view.add(chip, names[number] if number < len(names) else "", look)
-    if kind == "browser":
-        import webbrowser
-
-        webbrowser.open(view.url)
     opened: View = view
     return opened
 
