@@ -220,7 +220,9 @@ class _Shared:
         waits = self.opened or (sys.stderr is not None and sys.stderr.isatty())
         failed = leaving.ending or sys.exc_info()[0] is not None or hasattr(sys, "last_type")
         if self.view.url and waits and not failed and not self.view.wait(_SOON if self.opened else 0):
-            print("paneldraw: the last picture waits there for a browser; Ctrl-C ends that", file=sys.stderr, flush=True)
+            print(
+                "paneldraw: the last picture waits there for a browser; Ctrl-C ends that", file=sys.stderr, flush=True
+            )
             with contextlib.suppress(KeyboardInterrupt):
                 self.view.wait(_PATIENCE)
         self.view.close()

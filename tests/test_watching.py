@@ -1,4 +1,4 @@
-"""Panels that are watched: views and recordings live as long as the panel, time is the wire's, a real panel has a twin."""
+"""Panels that are watched: their views and recordings, time as the wire takes it, the twin of a real panel."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ import smbus2
 from far_ends import Server
 from PIL import Image
 
-from paneldraw import Framebuffer, open_panel, simulator, watching
+from paneldraw import open_panel, simulator, watching
 from paneldraw.controllers import CHIPS
 from paneldraw.errors import TransportError
 from paneldraw.pacing import Frames
@@ -303,15 +303,14 @@ def test_panels_share_a_page_and_the_last_one_ends_it(capfd):
     assert not answers(url)
 
 
-def test_a_port_in_use_gives_way_unless_it_was_asked_for(capfd):
+def test_a_port_in_use_gives_way_unless_it_was_asked_for(monkeypatch, capfd):
     with socket.create_server(("127.0.0.1", 0)) as taken:
         port = taken.getsockname()[1]
         with pytest.raises(OSError, match="address already in use"):
             open_panel(f"sim://ssd1306?view=web&listen=:{port}")
-    with simulator.serve(simulator.SSD1306(), port=8306) if not answers("//127.0.0.1:8306/") else Framebuffer(1, 1).clip(
-        0, 0, 1, 1
-    ), open_panel("sim://ssd1306?view=web"):
-        assert ":8306" not in page_of(capfd)
+        monkeypatch.setattr("paneldraw.simulator.views.PORT", port)
+        with open_panel("sim://ssd1306?view=web"):
+            assert f":{port}" not in page_of(capfd)
     assert ours() == []
 
 

@@ -78,7 +78,6 @@ class Sight:
         self.picture, self.seconds = new[0].pixels, new[0].seconds
         return True
 
-
     @property
     def summary(self) -> str:
         """How many pictures there were, and what they took."""

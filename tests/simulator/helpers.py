@@ -35,8 +35,8 @@ def pack(picture: NDArray[np.uint8]) -> NDArray[np.uint8]:
     return np.packbits(picture, axis=0, bitorder="little")
 
 
-def random_picture(width: int, height: int, seed: int) -> NDArray[np.uint8]:
-    return np.random.default_rng(seed).integers(0, 2, (height, width), dtype=np.uint8)
+def random_picture(width: int, height: int, seed: int, max_level: int = 1) -> NDArray[np.uint8]:
+    return np.random.default_rng(seed).integers(0, max_level + 1, (height, width), dtype=np.uint8)
 
 
 def started(width: int = 128, height: int = 64, mode: int = 0x00, **options: object) -> simulator.SSD1306:

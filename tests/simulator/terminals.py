@@ -21,7 +21,8 @@ class Screen(pyte.Screen):
     """A screen that, made lower, loses what is below the cursor first, as xterm and others do it."""
 
     def resize(self, lines: int | None = None, columns: int | None = None) -> None:
-        assert lines and columns
+        assert lines
+        assert columns
         off = max(0, self.cursor.y - (lines - 1))
         kept = {y - off: line for y, line in self.buffer.items() if off <= y < off + lines}
         self.buffer.clear()
@@ -45,7 +46,7 @@ class Terminal:
         self._marks = 0
         self._lock = threading.Lock()
         self.resize(columns, rows)
-        self.stream: TextIO = open(self._far, "w", encoding=encoding, closefd=False)
+        self.stream: TextIO = open(self._far, "w", encoding=encoding, closefd=False)  # noqa: SIM115
         self._thread = threading.Thread(target=self._read, daemon=True)
         self._thread.start()
 
