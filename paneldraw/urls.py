@@ -296,18 +296,33 @@ def _serial(parts: SplitResult) -> SerialURL:
     return SerialURL(place, rate, query, _settings(query, _PANEL), _watch(query))
 
 
-def views(text: str, name: str = "view") -> tuple[str, ...]:
-    """Read the kinds of view that are asked for, of which there may be several.
+def watch(query: str) -> Watch:
+    """Read how a panel is to be watched, as it stands in a URL's parameters.
 
     Examples
     --------
-    >>> views("terminal,web")
+    >>> watch("view=terminal,web").views
     ('terminal', 'web')
     """
+    return _watch(_query(SplitResult("", "", "", query, ""), *_WATCHING))
+
+
+def query(**parameters: str) -> str:
+    """Write parameters as they stand in a URL.
+
+    Examples
+    --------
+    >>> query(view="web", listen="0.0.0.0:8306", save="out.gif")
+    'view=web&listen=0.0.0.0:8306&save=out.gif'
+    """
+    return urlencode(parameters, safe=":/,[]")
+
+
+def _views(text: str) -> tuple[str, ...]:
     kinds = tuple(dict.fromkeys(text.lower().split(",")))
     for kind in kinds:
         if kind not in _VIEWS:
-            raise ValueError(f"{name} must be {' or '.join(_VIEWS)}, not {kind!r}{did_you_mean(kind, _VIEWS)}")
+            raise ValueError(f"view must be {' or '.join(_VIEWS)}, not {kind!r}{did_you_mean(kind, _VIEWS)}")
     return kinds
 
 
@@ -319,7 +334,7 @@ def _watch(query: dict[str, str]) -> Watch:
 
         find_look(query["look"])
     return Watch(
-        views(query["view"]) if "view" in query else (),
+        _views(query["view"]) if "view" in query else (),
         query.get("save", ""),
         query.get("look"),
         _switch(query, "realtime") if "realtime" in query else False,

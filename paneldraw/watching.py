@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from paneldraw.simulator.views import Kind, View
 
 VARIABLE: Final = "PANELDRAW_VIEW"
-"""Environment variable that says how all panels are viewed whose URL says nothing of it."""
+"""Environment variable that has what would stand behind ``view=``, for all panels whose URL says nothing of it."""
 _RECORDED: Final = 100_000_000
 """Bytes of pixels that a recording may hold."""
 _PATIENCE: Final = 60.0
@@ -39,10 +39,19 @@ _hinted = False
 
 def asked(url: urls.PanelURL | urls.SerialURL) -> urls.Watch:
     """Return how a panel is to be watched, by its URL and else by the environment."""
-    kinds = os.environ.get(VARIABLE)
-    if url.watch.views or not kinds:
+    said = os.environ.get(VARIABLE)
+    if url.watch.views or url.watch.save or not said:
         return url.watch
-    return replace(url.watch, views=urls.views(kinds, f"the environment variable {VARIABLE}"))
+    try:
+        found = urls.watch(f"view={said}")
+    except ValueError as error:
+        raise ValueError(f"the environment variable {VARIABLE} is {said!r}: {error}") from None
+    return replace(found, look=url.watch.look or found.look, realtime=url.watch.realtime)
+
+
+def watched(panel: Panel) -> bool:
+    """Whether somebody watches a panel already."""
+    return isinstance(panel.transport, Watched)
 
 
 def hint() -> None:
@@ -212,7 +221,8 @@ class _Shared:
         """Show the page in a browser, once."""
         import webbrowser
 
-        if not self.opened:
+        screen = sys.platform in ("darwin", "win32") or "DISPLAY" in os.environ or "WAYLAND_DISPLAY" in os.environ
+        if screen and not self.opened:  # without one, a browser in the terminal would stand in the script's way
             self.opened = webbrowser.open(self.view.url)
 
     def close(self) -> None:

@@ -78,7 +78,7 @@ def test_an_environment_variable_views_all_panels(monkeypatch, capfd):
         panel.show(np.ones((16, 96), np.uint8))
     assert capfd.readouterr().out.count("█" * 96) == 8
     monkeypatch.setenv("PANELDRAW_VIEW", "screen")
-    with pytest.raises(ValueError, match="the environment variable PANELDRAW_VIEW must be terminal"):
+    with pytest.raises(ValueError, match="the environment variable PANELDRAW_VIEW is 'screen': view must be"):
         open_panel("sim://ssd1306")
 
 

@@ -113,7 +113,7 @@ def _parser() -> argparse.ArgumentParser:
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
     for add in (
         *(_add_demo, _add_show, _add_text, _add_clear, _add_off, _add_panels, _add_detect, _add_check, _add_info),
-        *(_add_bench, _add_firmware, _add_replay),
+        *(_add_bench, _add_firmware, _add_replay, _add_view),
     ):
         add(commands)
     return parser
@@ -319,7 +319,7 @@ def _wrap(text: str, font: Font, width: int) -> str:
 def _opened(options: argparse.Namespace) -> Panel:
     from paneldraw.panel import open_panel
 
-    return open_panel(options.panel)
+    return open_panel(options.panel or os.environ.get("PANELDRAW_PANEL") or "sim://ssd1306")
 
 
 def _present(panel: Panel, fb: Framebuffer, what: str) -> None:
@@ -460,3 +460,9 @@ def _add_replay(commands: _Commands) -> None:
     from paneldraw.cli import replay
 
     replay.add(commands, _save_path, _positive(int), _positive(float))
+
+
+def _add_view(commands: _Commands) -> None:
+    from paneldraw.cli import view
+
+    view.add(commands)

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 from paneldraw.pacing import Frames
 from paneldraw.simulator import Frame, TerminalView, save
 from paneldraw.simulator.recorder import Showing
+from paneldraw.watching import watched
 
 if TYPE_CHECKING:
     from paneldraw.demos import Demo
@@ -59,9 +60,9 @@ def simulated(panel: Panel) -> Showing | None:
 
 
 def print_panel(panel: Panel, caption: str) -> None:
-    """Print what a simulated panel shows; of a real one, which a person can see, the caption alone."""
+    """Print what a simulated panel shows; of a real one, or one that is watched, the caption alone."""
     chip = simulated(panel)
-    if chip is None:
+    if chip is None or watched(panel):
         print(caption)
         return
     with TerminalView() as view:
@@ -90,7 +91,8 @@ def play(demo: Demo, panel: Panel, name: str, *, frames: float, fps: float, save
         A .gif or .apng of all frames, or a .png of the last.
     """
     chip = simulated(panel)
-    real_time = save_to is None and (chip is None or sys.stdout.isatty())
+    seen = watched(panel)
+    real_time = save_to is None and (chip is None or seen or sys.stdout.isatty())
     still = save_to is not None and save_to.suffix.lower() == ".png"
     start = _seconds_after_midnight() if real_time else TEN_PAST_TEN
     fb = panel.framebuffer()
@@ -98,7 +100,7 @@ def play(demo: Demo, panel: Panel, name: str, *, frames: float, fps: float, save
     drawn = total_bytes = 0
     whole = fb.width * fb.height * fb.depth // 8
     with contextlib.ExitStack() as stack:
-        view = stack.enter_context(TerminalView()) if chip else None
+        view = stack.enter_context(TerminalView()) if chip and not seen else None
         progress = stack.enter_context(Progress("drawing")) if not (chip and sys.stdout.isatty()) else None
         for index in _paced(int(frames - 1) if still else 0, frames, fps, real_time):
             demo(fb, start + index / fps)
@@ -113,7 +115,7 @@ def play(demo: Demo, panel: Panel, name: str, *, frames: float, fps: float, save
                 view.show(chip, caption)
             if progress:
                 progress(index + 1, frames)
-    if chip is None:
+    if view is None:
         print(caption)
     if save_to:
         with Progress("writing") as progress:

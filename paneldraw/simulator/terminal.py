@@ -269,7 +269,7 @@ class Arrangement:
             lines = [f"{side}{line}{side}" for line in lines]
             lines = [left_top + bars + right_top, *lines, left_bottom + bars + right_bottom]
         if self.captions and shown.caption:
-            lines.append(_cut(shown.caption, room or width).ljust(width))
+            lines.append(_cut(shown.caption, room or width).ljust(0 if room else width))
         return lines, width
 
 

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 _ANY = ("0.0.0.0", "::")
 _PAGE: Final = Path(__file__).with_name("page.html")
-_HEAD: Final = struct.Struct("<HHIdd")
+HEAD: Final = struct.Struct("<HHIdd")
 """Ahead of a picture: number of the panel, nothing, its pictures and bytes on the wire so far, seconds on its bus."""
 _MOST_READ: Final = 1024
 """Bytes of what a browser may say, which nobody listens to."""
@@ -63,7 +63,7 @@ class _Panel:
     def _packed(self) -> bytes:
         sight = self.sight
         levels = np.packbits(sight.picture) if sight.max_level == 1 else sight.picture
-        return _HEAD.pack(self.number, 0, sight.frames, sight.wire_bytes, sight.seconds) + levels.tobytes()
+        return HEAD.pack(self.number, 0, sight.frames, sight.wire_bytes, sight.seconds) + levels.tobytes()
 
     def described(self) -> dict[str, Any]:
         """What the page has to know before the pictures."""

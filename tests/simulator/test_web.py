@@ -5,7 +5,6 @@ from __future__ import annotations
 import asyncio
 import io
 import socket
-import struct
 import threading
 import time
 from collections.abc import Awaitable, Callable, Iterator
@@ -17,12 +16,11 @@ import pytest
 from PIL import Image
 
 from paneldraw import open_panel, simulator
-from paneldraw.simulator.web import Server
+from paneldraw.simulator.web import HEAD, Server
 
 from .browsers import Browser, Page, browsers, needs_chromium, run
 from .helpers import random_picture, send, started
 
-HEAD = struct.Struct("<HHIdd")
 browser = pytest.fixture(scope="module")(browsers)
 
 
