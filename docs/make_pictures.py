@@ -19,6 +19,7 @@ import chip_tables
 import figures
 import gallery
 import numpy as np
+import screens
 import symptoms
 import worked_examples
 from PIL import Image
@@ -95,6 +96,7 @@ PAGES: dict[str, Mapping[str, Any]] = {
     "algorithms.md": vars(worked_examples),
     "chips.md": vars(chip_tables),
     "add_a_chip.md": {},
+    "watching.md": vars(screens),
 }
 
 

@@ -16,12 +16,15 @@ import make_pictures
 import numpy as np
 import plain_loops as plain
 import pytest
+import screens
 import symptoms
 import worked_examples as examples
 from PIL import Image
 
 from paneldraw import ConeFilter, Framebuffer, Supersample
 from paneldraw.cli import check, main
+from paneldraw import ConeFilter, Framebuffer, Supersample, simulator, urls
+from paneldraw.cli import check
 from paneldraw.controllers import CHIPS
 from paneldraw.raster.stroke import CAPS, JOINS
 from paneldraw.raster.surface import OPS
@@ -161,6 +164,27 @@ def test_the_script_of_the_page_on_running_runs(monkeypatch):
     scope = {}
     exec(scripts[0], scope)
     assert scope["panel"].stats.frames == 6
+
+
+def test_the_blocks_of_the_page_on_watching_run(monkeypatch, capsys):
+    monkeypatch.setenv("PANELDRAW_PANEL", "sim://ssd1306?size=96x16&view=web")
+    blocks = re.findall(r"^```python\n(.*?)^```$", screens.PAGE.read_text(encoding="utf-8"), re.M | re.S)
+    assert len(blocks) == 3
+    names = {}
+    for block in blocks:
+        exec(block, names)
+    assert capsys.readouterr().out.startswith("http://127.0.0.1:")
+    assert names["panel"].stats.frames == 1
+
+
+def test_the_page_on_watching_names_all_that_a_url_can_ask_for():
+    page = screens.PAGE.read_text(encoding="utf-8")
+    assert set(re.findall(r"^\| `(\w+)=", page, re.M)) == {*urls._WATCHING, "realtime"}
+    assert all(f"`{look}`" in page for look in simulator.LOOKS)
+    assert all(f"`view={kind}`" in page for kind in urls._VIEWS)
+    with Image.open(screens.SCREEN) as picture:
+        assert picture.size == screens._SIZE
+    assert [file.name for file in screens.SCREEN.parent.iterdir()] == ["page.png"]
 
 
 def test_the_blocks_of_the_page_on_adding_a_chip_run():
