@@ -46,9 +46,9 @@ def browser() -> None:
         for panel, (url, look) in zip(panels, looks.items(), strict=True):
             exec(script().replace("open_panel()", "given"), {"given": panel})
             server.add(panel.simulated, f"{panel.controller.name} {panel.width}x{panel.height}, {url}", look)
-        size = f"--window-size={_SIZE[0]},{_SIZE[1]}"
-        options = ["--headless", "--no-sandbox", "--disable-gpu", "--hide-scrollbars", "--virtual-time-budget=3000", size]
-        subprocess.run(["chromium", *options, f"--screenshot={SCREEN}", server.url], check=True, capture_output=True)
+        command = ["chromium", "--headless", "--no-sandbox", "--disable-gpu", "--hide-scrollbars"]
+        command += ["--virtual-time-budget=3000", f"--window-size={_SIZE[0]},{_SIZE[1]}", f"--screenshot={SCREEN}"]
+        subprocess.run([*command, server.url], check=True, capture_output=True)
 
 
 if __name__ == "__main__":

@@ -173,8 +173,8 @@ def detect(url: str | None = None) -> Found:
         from paneldraw.panel import open_panel
 
         with open_panel(url) as panel:
-            if isinstance(panel.transport, I2CTransport):
-                _search(found, panel.transport.bus, "the simulated bus", "sim://")
+            if bus := getattr(panel.transport, "bus", None):  # it may be watched
+                _search(found, bus, "the simulated bus", "sim://")
     elif parts.scheme == "i2c":
         asked = f"/dev/i2c-{parts.netloc}" if parts.netloc else re.sub("/[^-/]+$", "", parts.path)
         for path, name in [(asked, _adapter_name(Path(asked)))] if asked else i2c_buses():

@@ -431,6 +431,7 @@ class LiveTerminal:
         self._stream = sys.stdout if stream is None else stream
         self._view = TerminalView(stream)
         self._sights: list[Sight] = []
+        self._others = False  # whether chips came or went since the last time that all were drawn
         self._change = threading.Condition()
         self._closed = False
         self._thread: threading.Thread | None = None
@@ -445,6 +446,7 @@ class LiveTerminal:
         """Show one more chip, under a title."""
         with self._change:
             self._sights.append(Sight(chip, title, look))
+            self._others = True
             if self._thread is None and not self._closed and self._view.live:
                 self._thread = threading.Thread(target=self._watch, name="paneldraw terminal", daemon=True)
                 self._thread.start()
@@ -453,6 +455,7 @@ class LiveTerminal:
         """Show a chip no longer."""
         with self._change:
             self._sights = [sight for sight in self._sights if sight.chip is not chip]
+            self._others = True
 
     def describe(self, chip: Showing, text: str) -> None:
         """Words are for those who do not see; here the picture is all there is."""
@@ -480,7 +483,7 @@ class LiveTerminal:
             with self._change:
                 if self._change.wait_for(lambda: self._closed, max(BEAT, pause)):
                     return
-                changed = [sight.glance() for sight in self._sights]
+                changed = [self._others, *(sight.glance() for sight in self._sights)]
             start = time.perf_counter()
             now = _terminal_size(self._stream)
             try:
@@ -493,6 +496,7 @@ class LiveTerminal:
 
     def _draw(self) -> None:
         with self._change:
+            self._others = False
             for sight in self._sights:
                 sight.glance()
             self._view.draw(

@@ -111,7 +111,11 @@ class Server:
             target=lambda: asyncio.run(self._main(host, port, started)), name="paneldraw-web", daemon=True
         )
         self._thread.start()
-        bound = started.result()
+        try:
+            bound = started.result()
+        except BaseException:
+            self._thread.join()
+            raise
         query = f"?token={self._token}" if self._token else ""
         self.url = f"http://{f'[{host}]' if ':' in host else host}:{bound}/{query}"
 

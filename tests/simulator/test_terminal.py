@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import contextlib
 import io
+import threading
+import time
 from collections.abc import Callable, Iterator
 
 import numpy as np
@@ -225,6 +227,51 @@ def test_resizing_leaves_nothing_behind(sized: Sized, sizes: list[tuple[int, int
             assert lines[-count:] == alone
             assert set(lines[:-count]) <= {"", "said", "said before"}
             assert "said" in lines
+
+
+def test_a_live_view_follows_its_chips_and_the_size_of_the_window(
+    sized: Sized, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    terminal = sized(140, 45)
+    monkeypatch.setattr("sys.stdout", terminal.stream)
+    chip = started(96, 16)
+    with simulator.open_view("terminal", [chip], ["hall"]) as view:
+        for seed in range(3):
+            picture = random_picture(96, 16, seed)
+            send(chip, picture)
+            chip.settle(seed, 100)
+            lines = terminal.wait_for(f"hall: {seed + 1} frame")
+            assert lines[-10:-2] == [f"│{line}│" for line in simulator.text(picture).split("\n")]
+        terminal.resize(60, 20)
+        view.add(started(96, 16), "stairs")
+        terminal.wait_for("stairs: 0 frames")
+        lines = terminal.lines()
+        assert max(map(len, lines)) <= 60
+        assert "".join(lines).count("┌") == 2
+        view.remove(chip)
+        send(chip, picture)
+        while any("hall" in line for line in terminal.shown()):
+            time.sleep(0.01)
+    terminal.lines()
+    assert in_order(terminal)
+    assert not [thread for thread in threading.enumerate() if thread.name == "paneldraw terminal"]
+
+
+def test_a_terminal_that_went_away_is_no_error(monkeypatch: pytest.MonkeyPatch) -> None:
+    class Gone(io.StringIO):
+        def isatty(self) -> bool:
+            return True
+
+        def write(self, text: str) -> int:
+            raise OSError(5, "Input/output error")
+
+    monkeypatch.setattr("sys.stdout", Gone())
+    chip = started(96, 16)
+    with simulator.open_view("terminal", [chip]):
+        send(chip, random_picture(96, 16, 1))
+        chip.settle(0, 0)
+        while threading.active_count() > 1 and any(t.name == "paneldraw terminal" for t in threading.enumerate()):
+            time.sleep(0.01)
 
 
 @pytest.mark.parametrize("error", [KeyboardInterrupt, RuntimeError, SystemExit])

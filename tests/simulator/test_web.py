@@ -258,6 +258,24 @@ def test_rubbish_is_turned_away_and_the_page_goes_on(chip: simulator.SSD1306, se
     session(use)
 
 
+def test_two_viewers_see_the_same_and_one_that_goes_leaves_the_other(chip: simulator.SSD1306, server: Any) -> None:
+    async def use(client: aiohttp.ClientSession) -> None:
+        async with client.ws_connect(server.url + "frames") as stays:
+            goes = await client.ws_connect(server.url + "frames")
+            for feed in (stays, goes):
+                await feed.receive_json()
+                assert np.array_equal(await picture_of(feed, 128, 32), chip.pixels)
+            assert goes._response.connection is not None
+            goes._response.connection.transport.abort()  # pulled out, without a word
+            for seed in range(2, 6):
+                picture = show(chip, seed)
+                assert np.array_equal(await picture_of(stays, 128, 32), picture)
+            while server._sockets > 1:
+                await asyncio.sleep(0.01)
+
+    session(use)
+
+
 def test_who_never_reads_costs_no_memory_and_holds_up_nobody(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("paneldraw.simulator.web.BEAT", 0.001)
     panel = open_panel("sim://ssd1322")
