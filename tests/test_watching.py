@@ -368,7 +368,7 @@ def script(end="", first=""):
 def test_however_a_script_ends_its_views_end_too(tmp_path, end):
     code, status = ENDS[end]
     path = tmp_path / "out.png"
-    environment = os.environ | {"PANELDRAW_PANEL": f"sim://ssd1306?view=terminal,web&save={path}", "PYTHONPATH": "."}
+    environment = os.environ | {"PANELDRAW_PANEL": f"sim://ssd1306?view=terminal,web&save={path}"}
     done = subprocess.run(
         [sys.executable, "-W", "ignore", "-c", script(code)], env=environment, capture_output=True, timeout=60
     )
@@ -386,7 +386,7 @@ def test_however_a_script_ends_its_views_end_too(tmp_path, end):
 def test_a_terminal_is_left_in_order(end):
     from simulator.terminals import Terminal, in_order
 
-    environment = os.environ | {"PANELDRAW_PANEL": "sim://ssd1306?view=terminal", "PYTHONPATH": ".", "TERM": "xterm"}
+    environment = os.environ | {"PANELDRAW_PANEL": "sim://ssd1306?view=terminal", "TERM": "xterm"}
     with Terminal(140, 50) as terminal:
         print_and = "print('\\nnow'); time.sleep(0.1)\n"
         command = [sys.executable, "-c", script(print_and + ENDS[end][0])]
@@ -418,7 +418,7 @@ def test_a_person_at_a_terminal_is_told_once_how_to_see_the_panel(environment, s
     clean = {name: value for name, value in os.environ.items() if not name.startswith("PANELDRAW")}
     with Terminal(120, 40) as terminal:
         code = "from paneldraw import open_panel\nopen_panel(); open_panel()"
-        options = {"env": clean | environment | {"PYTHONPATH": "."}, "stdout": subprocess.DEVNULL, "timeout": 60}
+        options = {"env": clean | environment, "stdout": subprocess.DEVNULL, "timeout": 60}
         subprocess.run([sys.executable, "-c", code], stderr=terminal.fd, **options)
         lines = "\n".join(terminal.lines())
     assert lines.count("PANELDRAW_PANEL is not set") == said
@@ -431,7 +431,7 @@ def test_a_person_at_a_terminal_is_told_once_how_to_see_the_panel(environment, s
 def test_a_page_waits_for_its_first_browser_where_a_person_can_open_one():
     from simulator.terminals import Terminal
 
-    environment = os.environ | {"PANELDRAW_PANEL": "sim://ssd1306?view=web", "PYTHONPATH": "."}
+    environment = os.environ | {"PANELDRAW_PANEL": "sim://ssd1306?view=web"}
     with Terminal(120, 40) as terminal:
         child = subprocess.Popen([sys.executable, "-c", script()], env=environment, stderr=terminal.fd)
         lines = terminal.wait_for("the last picture waits there for a browser")
