@@ -31,7 +31,6 @@ _TEXTS: Final = ("order", "first_block", "block_rotation", "board")
 _YES: Final = {"1": True, "true": True, "yes": True, "0": False, "false": False, "no": False}
 _WATCHING: Final = ("view", "save", "look", "listen")
 _VIEWS: Final = ("terminal", "web", "browser")
-_FILES: Final = (".gif", ".png", ".apng")
 _MODULE: Final = ("size", *dict.fromkeys(name for chip in CHIPS.values() for name in chip.parameters))
 _SERIAL: Final = ("baudrate", "chip", *_MODULE, *_PANEL, *_WATCHING)
 
@@ -327,8 +326,11 @@ def _views(text: str) -> tuple[str, ...]:
 
 
 def _watch(query: dict[str, str]) -> Watch:
-    if "save" in query and not query["save"].lower().endswith(_FILES):
-        raise ValueError(f"save must end in {' or '.join(_FILES)}, not {query['save']!r}")
+    if "save" in query:
+        from paneldraw.simulator.recorder import EXTENSIONS
+
+        if not query["save"].lower().endswith(EXTENSIONS):
+            raise ValueError(f"save must end in {' or '.join(EXTENSIONS)}, not {query['save']!r}")
     if "look" in query:
         from paneldraw.simulator import find_look
 

@@ -291,7 +291,7 @@ def _reserved(name: str) -> str:
 def _write(chip: Any, file: str, look: str | None) -> None:
     from paneldraw.simulator import Frame, save
 
-    frames = list(chip.frames) or [Frame(chip.pixels, 0.0, 0, chip.max_level)]
+    frames = chip.frames or [Frame(chip.pixels, 0.0, 0, chip.max_level)]
     if file.lower().endswith(".png"):  # the last that shone: the end of a script may have left the panel dark
         frames = [next((frame for frame in reversed(frames) if frame.pixels.any()), frames[-1])]
     save(frames, file, look=look or chip.look)

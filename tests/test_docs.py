@@ -21,10 +21,8 @@ import symptoms
 import worked_examples as examples
 from PIL import Image
 
-from paneldraw import ConeFilter, Framebuffer, Supersample
-from paneldraw.cli import check, main
 from paneldraw import ConeFilter, Framebuffer, Supersample, simulator, urls
-from paneldraw.cli import check
+from paneldraw.cli import check, main
 from paneldraw.controllers import CHIPS
 from paneldraw.raster.stroke import CAPS, JOINS
 from paneldraw.raster.surface import OPS

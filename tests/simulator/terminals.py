@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
-import fcntl
 import os
-import pty
 import struct
-import termios
 import threading
 import time
 from types import TracebackType
@@ -14,7 +11,11 @@ from typing import Any, TextIO
 
 import numpy as np
 import pyte
+import pytest
 from numpy.typing import NDArray
+
+pty = pytest.importorskip("pty", reason="pseudo-terminals are a thing of Unix")
+fcntl, termios = pytest.importorskip("fcntl"), pytest.importorskip("termios")
 
 
 class Screen(pyte.Screen):
