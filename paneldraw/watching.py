@@ -8,6 +8,7 @@ import os
 import sys
 import threading
 import time
+import warnings
 import weakref
 from collections.abc import Callable
 from dataclasses import replace
@@ -129,16 +130,14 @@ class Watched:
         """Send one command message; return the bytes on the wire."""
         with self._pace:
             wire = self._transport.command(payload)
-        if self._twin:
-            self._twin.command(payload)
+        self._tell(lambda twin: twin.command(payload))
         return wire
 
     def data(self, payload: bytes) -> int:
         """Send one data message; return the bytes on the wire."""
         with self._pace:
             wire = self._transport.data(payload)
-        if self._twin:
-            self._twin.data(payload)
+        self._tell(lambda twin: twin.data(payload))
         return wire
 
     def batch(self, plan: Plan) -> int:
@@ -147,17 +146,26 @@ class Watched:
         kinds = plan.buffer[starts]
         with self._pace:
             wire = self._transport.batch(plan)
-        if self._twin:
-            plan.buffer[starts] = kinds  # where the transport put bytes of its own
-            self._twin.batch(plan)
+        plan.buffer[starts] = kinds  # where the transport put bytes of its own
+        self._tell(lambda twin: twin.batch(plan))
         return wire
 
     def reset(self) -> bool:
         """Pulse the panel's reset line; return whether there is one."""
         done = self._transport.reset()
-        if self._twin and done:
-            self.chip.reset()
+        if done:
+            self._tell(lambda _: self.chip.reset())
         return done
+
+    def _tell(self, tell: Callable[[Transport], object]) -> None:
+        """Let the twin know what the panel got; what goes wrong with it is no concern of the panel's."""
+        if self._twin is None:
+            return
+        try:
+            tell(self._twin)
+        except Exception as error:
+            self._twin = None
+            warnings.warn(f"the view of the panel stands still: {error!r}", RuntimeWarning, stacklevel=2)
 
     def close(self) -> None:
         """Close the transport, end the views and write the recording. Closing twice does nothing."""

@@ -111,11 +111,11 @@ def test_the_wheel_holds_the_packages_and_nothing_else(wheel):
     names = wheel.namelist()
     assert {name.partition("/")[0] for name in names} == {"paneldraw", "firmware_protocol", INFO}
     kinds = {Path(name).suffix for name in names if ".dist-info/" not in name}
-    assert kinds <= {".py", ".pxd", ".typed", ".md", ".txt"}
+    assert kinds <= {".py", ".pxd", ".typed", ".md", ".txt", ".html"}
     expected = {
         str(file.relative_to(PROJECT))
         for package in ("paneldraw", "firmware_protocol")
-        for pattern in ("**/*.py", "**/*.pxd", "py.typed", "PROTOCOL.md", "vectors/*.txt")
+        for pattern in ("**/*.py", "**/*.pxd", "py.typed", "PROTOCOL.md", "vectors/*.txt", "simulator/page.html")
         for file in (PROJECT / package).glob(pattern)
         if "firmware_protocol/firmware/" not in file.as_posix()
     }

@@ -269,6 +269,18 @@ def test_what_a_panel_did_not_get_its_twin_does_not_show(monkeypatch, capfd):
         assert np.array_equal(panel.transport.chip.pixels, noise(panel, 3))
 
 
+def test_what_goes_wrong_with_a_twin_is_no_concern_of_the_panels(monkeypatch, capfd):
+    chip = simulator.SSD1306()
+    bus = simulator.I2CBus({0x3C: chip})
+    monkeypatch.setattr(smbus2, "SMBus", lambda path: bus)
+    with open_panel("i2c://1/0x3c?view=terminal") as panel:
+        panel.transport._twin.bus.fail(errno=5, times=None)
+        with pytest.warns(RuntimeWarning, match="the view of the panel stands still"):
+            panel.show(noise(panel, 1))
+        panel.show(noise(panel, 2))
+        assert np.array_equal(chip.pixels, noise(panel, 2))
+
+
 # -- A view's life
 
 
