@@ -19,8 +19,8 @@ _ENDING: Final = [getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if has
 _left: weakref.WeakSet[Panel] = weakref.WeakSet()
 _all: weakref.WeakSet[Panel] = weakref.WeakSet()
 _installed = False
-ending = False
-"""Whether a signal is ending the script: nothing may be waited for any more."""
+ending = 0
+"""The signal that is ending the script: nothing may be waited for any more."""
 
 
 def follow(panel: Panel) -> None:
@@ -54,19 +54,20 @@ def _close_all() -> None:
 def _end(number: int, frame: FrameType | None) -> None:
     """Close all panels, then let the signal do what it would have done."""
     global ending
-    ending = True
+    ending = number
     signal.signal(number, signal.SIG_DFL)
-
-    def finish() -> None:
-        for panel in list(_left):
-            with contextlib.suppress(Exception):
-                panel._end() if panel._inside() else panel.close()
-        os.kill(os.getpid(), number)
-
     for panel in list(_left):
         if panel._postponed(finish):  # the signal came in the middle of a call, which has to end first
             return
     finish()
+
+
+def finish() -> None:
+    """Close all panels, and end by the signal that came."""
+    for panel in list(_left):
+        with contextlib.suppress(Exception):
+            panel._end() if panel._inside() else panel.close()
+    os.kill(os.getpid(), ending)
 
 
 def _in_child() -> None:

@@ -28,6 +28,8 @@ _RECORDED: Final = 100_000_000
 """Bytes of pixels that a recording may hold."""
 _PATIENCE: Final = 60.0
 """Seconds that the page of a script that is over waits for its first browser."""
+_GLANCE: Final = 0.1
+"""Seconds between two looks at whether a signal ends that."""
 _SOON: Final = 2.0
 """Seconds within which a browser that was opened usually comes."""
 
@@ -171,10 +173,13 @@ class Watched:
         """Close the transport, end the views and write the recording. Closing twice does nothing."""
         if os.getpid() != self._process:  # they are the parent's
             return
+        before = leaving.ending
         try:
             self._transport.close()
         finally:
             self._end()
+        if leaving.ending != before:  # a signal came meanwhile, and behind a panel's end nobody looks for it
+            leaving.finish()
 
     def describe(self, text: str) -> None:
         """Say in words what the panel shows."""
@@ -236,13 +241,15 @@ class _Shared:
     def close(self) -> None:
         """End the view; a page waits first for a browser, if none came and a person is there who may open one."""
         waits = self.opened or (sys.stderr is not None and sys.stderr.isatty())
-        failed = leaving.ending or sys.exc_info()[0] is not None or hasattr(sys, "last_type")
+        failed = bool(leaving.ending) or sys.exc_info()[0] is not None or hasattr(sys, "last_type")
         if self.view.url and waits and not failed and not self.view.wait(_SOON if self.opened else 0):
             print(
                 "paneldraw: the last picture waits there for a browser; Ctrl-C ends that", file=sys.stderr, flush=True
             )
+            end = time.monotonic() + _PATIENCE
             with contextlib.suppress(KeyboardInterrupt):
-                self.view.wait(_PATIENCE)
+                while not (leaving.ending or self.view.wait(_GLANCE)) and time.monotonic() < end:
+                    pass
         self.view.close()
 
 

@@ -441,15 +441,17 @@ def test_a_person_at_a_terminal_is_told_once_how_to_see_the_panel(environment, s
 
 
 @posix
-def test_a_page_waits_for_its_first_browser_where_a_person_can_open_one():
+@pytest.mark.parametrize("end", ["", "panel.close()"])
+@pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 0), (signal.SIGTERM, -signal.SIGTERM)])
+def test_a_page_waits_for_its_first_browser_where_a_person_can_open_one(end, number, code):
     from simulator.terminals import Terminal
 
     environment = os.environ | {"PANELDRAW_PANEL": "sim://ssd1306?view=web"}
     with Terminal(120, 40) as terminal:
-        child = subprocess.Popen([sys.executable, "-c", script()], env=environment, stderr=terminal.fd)
+        child = subprocess.Popen([sys.executable, "-c", script(end)], env=environment, stderr=terminal.fd)
         lines = terminal.wait_for("the last picture waits there for a browser")
         url = next(line for line in lines if "watch at" in line).rpartition(" ")[2]
         assert answers(url)
-        child.send_signal(signal.SIGINT)
-        assert child.wait(30) == 0
+        child.send_signal(number)
+        assert child.wait(30) == code
         assert not answers(url)
