@@ -5,7 +5,7 @@ from __future__ import annotations
 import ctypes
 import errno as codes
 import time
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol
 
@@ -15,7 +15,7 @@ from .wire import EREMOTEIO, Fault, Wire, check_bus, os_error
 _MAX_MESSAGES = 42
 _MAX_MESSAGE_BYTES = 8192
 _MAX_BLOCK = 32
-_READ, _STOP = 0x0001, 0x8000
+_READ, _TEN, _RECV_LEN, _STOP = 0x0001, 0x0010, 0x0400, 0x8000
 _MANGLING = 0x4  # I2C_FUNC_PROTOCOL_MANGLING: a message may end with a STOP
 # I2C_FUNC_I2C and what Linux emulates of SMBus on plain I2C adapters, less packet error checking.
 _FUNCS = 0x0EFF0001
@@ -35,14 +35,34 @@ class Device(Protocol):
 
 
 @dataclass(slots=True)
-class _Message:
+class Message:
     """One START-to-START piece of a transfer: bytes to write, or a number of bytes to read."""
 
     address: int
     payload: bytes = b""
     length: int | None = None
     answer: bytes = b""
-    stop: bool = False
+    flags: int = 0
+
+    @classmethod
+    def of(cls, address: int, flags: int, length: int, payload: bytes) -> Message:
+        """Make one of what the kernel's ``i2c_msg`` says, and of what its buffer holds."""
+        return cls(address, payload, length, flags=flags) if flags & _READ else cls(address, payload, flags=flags)
+
+    @property
+    def size(self) -> int:
+        """Bytes to write or to read."""
+        return len(self.payload) if self.length is None else self.length
+
+    @property
+    def counts(self) -> bool:
+        """Whether the kernel takes it for an SMBus block read, whose first byte is the count of those that follow."""
+        return self.length is not None and self.payload[:1] > b"\0" and self.length >= self.payload[0] + _MAX_BLOCK
+
+
+def _given(flags: int, length: int) -> int:
+    """How many bytes of a message's buffer the kernel looks at."""
+    return length if not flags & _READ else min(length, 1) if flags & _RECV_LEN else 0
 
 
 class _ShortTransferError(Exception):
@@ -137,6 +157,14 @@ class I2CBus(Wire):
     ----------
     devices : dict
         The chips by address.
+    claimed : set of int
+        Addresses that a driver of the kernel's own holds, which ``i2cdetect`` marks UU: SMBus calls and ``I2C_SLAVE``
+        are refused with errno 16 (Device or resource busy) unless they are forced; ``i2c_rdwr`` is not.
+    timeout : float
+        Seconds after which the adapter gives a transfer up whose clock a chip holds. Default: 1, as most adapters have
+        it; ``I2C_TIMEOUT`` sets it.
+    retries : int
+        How often the kernel tries a transfer again that ended in ``EAGAIN``. Default: 0; ``I2C_RETRIES`` sets it.
     bytes : int
         Bytes on the wire since the bus was made: the address byte of every message, and its payload as far as it got.
     messages, transactions : int
@@ -173,12 +201,17 @@ class I2CBus(Wire):
         if not clock > 0:
             raise ValueError(f"clock: {clock!r} is not a rate in Hz above 0")
         self.devices: dict[int, Device] = dict(devices or {})
+        self.claimed: set[int] = set()
+        self.timeout = 1.0
+        self.retries = 0
         for address, device in self.devices.items():
             check_bus(device, "i2c")
             if not 0 <= address <= 0x7F:
                 raise ValueError(f"devices: {address:#x} is not a 7-bit address (0x00 to 0x7F)")
         super().__init__(timer)
         self.clock = clock
+        self._stuck: tuple[int, int | None] | None = None
+        self._held = 0.0
         self.transactions = 0
         self._heard: list[log.Message] = []
         self.fd: int | None = None
@@ -235,75 +268,79 @@ class I2CBus(Wire):
             if not (hasattr(message, "addr") and hasattr(message, "buf")):
                 raise TypeError(f"expected i2c_msg instance, got {type(message).__name__}")
         self._check_open()
-        if not 1 <= len(i2c_msgs) <= _MAX_MESSAGES or any(m.len > _MAX_MESSAGE_BYTES for m in i2c_msgs):
+        if any(m.len > _MAX_MESSAGE_BYTES for m in i2c_msgs):
             raise os_error(codes.EINVAL)
-        parts = [
-            _Message(
-                m.addr,
-                b"" if m.flags & _READ else m.buf[: m.len],
-                m.len if m.flags & _READ else None,
-                stop=bool(m.flags & _STOP and self.funcs & _MANGLING),
-            )
-            for m in i2c_msgs
-        ]
+        parts = [Message.of(m.addr, m.flags, m.len, m.buf[: _given(m.flags, m.len)]) for m in i2c_msgs]
+        done = self.rdwr(parts)
+        for message, part in zip(i2c_msgs, parts, strict=True):
+            if part.answer:
+                ctypes.memmove(message.buf, part.answer, len(part.answer))
+        return done
+
+    def rdwr(self, messages: Sequence[Message]) -> int:
+        """Do what the kernel does for ``I2C_RDWR``; return how many messages went through.
+
+        As there, nothing that was read is handed over if the call fails.
+        """
+        if not 1 <= len(messages) <= _MAX_MESSAGES or any(message.size > _MAX_MESSAGE_BYTES for message in messages):
+            raise os_error(codes.EINVAL)
+        for message in messages:
+            if message.flags & _RECV_LEN:
+                raise os_error(codes.EOPNOTSUPP if message.counts else codes.EINVAL)
         try:
-            self._transfer(parts)
+            self._transfer(messages)
         except _ShortTransferError as short:
             return short.count
-        finally:
-            for message, part in zip(i2c_msgs, parts, strict=True):
-                if part.answer:
-                    ctypes.memmove(message.buf, part.answer, len(part.answer))
-        return len(parts)
+        return len(messages)
 
     def write_quick(self, i2c_addr: int, force: bool | None = None) -> None:
         """Send the address alone: does anybody answer?"""
-        self._smbus(i2c_addr, b"")
+        self._smbus(i2c_addr, b"", force=force)
 
     def write_byte(self, i2c_addr: int, value: int, force: bool | None = None) -> None:
         """Send one byte."""
-        self._smbus(i2c_addr, _bytes([value]))
+        self._smbus(i2c_addr, _bytes([value]), force=force)
 
     def write_byte_data(self, i2c_addr: int, register: int, value: int, force: bool | None = None) -> None:
         """Send a register number and a byte."""
-        self._smbus(i2c_addr, _bytes([register, value]))
+        self._smbus(i2c_addr, _bytes([register, value]), force=force)
 
     def write_word_data(self, i2c_addr: int, register: int, value: int, force: bool | None = None) -> None:
         """Send a register number and two bytes, the low one first."""
-        self._smbus(i2c_addr, _bytes([register, value, value >> 8]))
+        self._smbus(i2c_addr, _bytes([register, value, value >> 8]), force=force)
 
     def write_block_data(self, i2c_addr: int, register: int, data: Iterable[int], force: bool | None = None) -> None:
         """Send a register number, a count and up to 32 bytes."""
         block = _block(data)
-        self._smbus(i2c_addr, _bytes([register, len(block)]) + block)
+        self._smbus(i2c_addr, _bytes([register, len(block)]) + block, force=force)
 
     def write_i2c_block_data(
         self, i2c_addr: int, register: int, data: Iterable[int], force: bool | None = None
     ) -> None:
         """Send a register number and up to 32 bytes; as in smbus2, values above 255 lose their upper bits."""
-        self._smbus(i2c_addr, _bytes([register]) + _block(data))
+        self._smbus(i2c_addr, _bytes([register]) + _block(data), force=force)
 
     def read_byte(self, i2c_addr: int, force: bool | None = None) -> int:
         """Read one byte."""
-        return self._smbus(i2c_addr, None, 1)[0]
+        return self._smbus(i2c_addr, None, 1, force=force)[0]
 
     def read_byte_data(self, i2c_addr: int, register: int, force: bool | None = None) -> int:
         """Send a register number, then read one byte."""
-        return self._smbus(i2c_addr, _bytes([register]), 1)[0]
+        return self._smbus(i2c_addr, _bytes([register]), 1, force=force)[0]
 
     def read_word_data(self, i2c_addr: int, register: int, force: bool | None = None) -> int:
         """Send a register number, then read two bytes, the low one first."""
-        return int.from_bytes(self._smbus(i2c_addr, _bytes([register]), 2), "little")
+        return int.from_bytes(self._smbus(i2c_addr, _bytes([register]), 2, force=force), "little")
 
     def process_call(self, i2c_addr: int, register: int, value: int, force: bool | None = None) -> int:
         """Send a register number and two bytes, then read two bytes."""
-        return int.from_bytes(self._smbus(i2c_addr, _bytes([register, value, value >> 8]), 2), "little")
+        return int.from_bytes(self._smbus(i2c_addr, _bytes([register, value, value >> 8]), 2, force=force), "little")
 
     def read_i2c_block_data(self, i2c_addr: int, register: int, length: int, force: bool | None = None) -> list[int]:
         """Send a register number, then read up to 32 bytes."""
         if length > _MAX_BLOCK:
             raise ValueError(f"Desired block length over {_MAX_BLOCK} bytes")
-        return list(self._smbus(i2c_addr, _bytes([register]), length))
+        return list(self._smbus(i2c_addr, _bytes([register]), length, force=force))
 
     def read_block_data(self, i2c_addr: int, register: int, force: bool | None = None) -> list[int]:
         """Refuse an SMBus block read with errno 95, as adapters do that are not SMBus hosts."""
@@ -368,37 +405,123 @@ class I2CBus(Wire):
         """
         return self._await(Fault(errno, after, at_byte, times, then, address))
 
+    def stretch(
+        self, seconds: float, *, after: int = 0, at_byte: int = 0, times: int | None = 1, address: int | None = None
+    ) -> Fault:
+        """Make a chip hold the clock low in a coming message.
+
+        Up to `timeout` seconds the transfer merely takes that much longer on the wire; past it the adapter gives up
+        with ``ETIMEDOUT``, the chip having received `at_byte` bytes.
+
+        Parameters
+        ----------
+        seconds : float
+            How long the clock is held.
+        after, at_byte, times, address
+            As in `fail`.
+
+        Examples
+        --------
+        >>> from paneldraw import simulator
+        >>> bus = simulator.I2CBus({0x3C: simulator.SSD1306()}, timer=None)
+        >>> fault = bus.stretch(0.5)
+        >>> bus.write_byte_data(0x3C, 0x00, 0xAF)
+        >>> f"{bus.seconds:.3f} s"
+        '0.500 s'
+        """
+        if not seconds > 0:
+            raise ValueError(f"seconds: {seconds!r} is not above 0")
+        return self._await(Fault(codes.ETIMEDOUT, after, at_byte, times, None, address, seconds))
+
+    def stick(self, errno: int = codes.ETIMEDOUT, *, calls: int | None = None) -> None:
+        """Let a chip hold SDA low, as one does whose read broke off: no call gets as far as a START.
+
+        Parameters
+        ----------
+        errno : int
+            What every call raises: ``ETIMEDOUT`` (default) or ``EAGAIN``, as the adapter has it.
+        calls : int or None
+            After how many calls the adapter's own recovery, nine pulses of the clock, has freed the line. Default:
+            None, it has none; `recover` frees it.
+
+        Examples
+        --------
+        >>> import errno
+        >>> from paneldraw import simulator
+        >>> bus = simulator.I2CBus({0x3C: simulator.SSD1306()})
+        >>> bus.stick(errno.EIO)
+        >>> bus.write_quick(0x3C)
+        Traceback (most recent call last):
+        OSError: [Errno 5] Input/output error
+        >>> bus.recover()
+        >>> bus.write_quick(0x3C)
+        """
+        if errno < 1 or (calls is not None and calls < 1):
+            raise ValueError("errno and calls are 1 or more")
+        self._stuck = errno, calls
+
+    def recover(self) -> None:
+        """Free SDA by pulses of the clock."""
+        self._stuck = None
+
+    def clear_faults(self) -> None:
+        """Forget all faults that wait, and free SDA."""
+        super().clear_faults()
+        self.recover()
+
     # inside
 
     def _check_open(self) -> None:
         if self.fd is None:
             raise TypeError("argument must be an int, or have a fileno() method.")
 
-    def _smbus(self, address: int, payload: bytes | None, length: int | None = None) -> bytes:
-        self._check_open()
-        if not 0 <= address <= 0x7F:
+    def select(self, address: int, force: bool = False, most: int = 0x7F) -> None:
+        """Do what the kernel does for ``I2C_SLAVE`` and ``I2C_SLAVE_FORCE``; `most` is the highest address."""
+        if not 0 <= address <= most:
             raise os_error(codes.EINVAL)
+        if address in self.claimed and not force:
+            raise os_error(codes.EBUSY)
+
+    def _smbus(
+        self, address: int, payload: bytes | None, length: int | None = None, *, force: bool | None = None
+    ) -> bytes:
+        self._check_open()
+        self.select(address, self.force if force is None else force)
         self.address = address
-        parts = [] if payload is None else [_Message(address, payload)]
+        return self.exchange(address, payload, length)
+
+    def exchange(self, address: int, payload: bytes | None, length: int | None = None) -> bytes:
+        """Write `payload`, then read `length` bytes, either of which may be None; all or an error, as SMBus has it."""
+        parts = [] if payload is None else [Message(address, payload)]
         if length is not None:
-            parts.append(_Message(address, length=length))
+            parts.append(Message(address, length=length))
         try:
             self._transfer(parts)
         except _ShortTransferError:
             raise os_error(codes.EIO) from None
         return parts[-1].answer
 
-    def _transfer(self, parts: list[_Message]) -> None:
+    def _transfer(self, parts: Sequence[Message]) -> None:
+        for attempt in range(self.retries, -1, -1):
+            try:
+                self._try(parts)
+                return
+            except OSError as error:
+                if error.errno != codes.EAGAIN or not attempt:
+                    raise
+
+    def _try(self, parts: Sequence[Message]) -> None:
         with self._lock:
             self._pass_time()
             self.transactions += 1
+            self._check_free()
             bytes_before, started, stops = self.bytes, 0, 1
             touched: dict[int, tuple[Device, int]] = {}
             try:
                 for part in parts:
                     started += 1
                     before = self.bytes
-                    device = self._at(part.address)
+                    device = None if part.flags & _TEN else self._at(part.address)
                     try:
                         self._carry(part, device)
                     finally:
@@ -406,7 +529,7 @@ class I2CBus(Wire):
                             chip = getattr(device, "chip", device)  # of two addresses, perhaps
                             wire_bytes = touched.get(id(chip), (chip, 0))[1] + self.bytes - before
                             touched[id(chip)] = chip, wire_bytes
-                    if part.stop:
+                    if part.flags & _STOP and self.funcs & _MANGLING:
                         stops += 1
                         self._stop()
             except _ShortTransferError as short:
@@ -414,12 +537,24 @@ class I2CBus(Wire):
                 raise
             finally:
                 self._stop()
-                now = self._elapse((9 * (self.bytes - bytes_before) + started + stops) / self.clock)
+                busy, self._held = (9 * (self.bytes - bytes_before) + started + stops) / self.clock + self._held, 0
+                now = self._elapse(busy)
                 for device, wire_bytes in touched.values():
                     device.settle(now, wire_bytes)
                 if self._heard and self.log:
                     self.log.write(log.Call(now, tuple(self._heard)))
                 self._heard.clear()
+
+    def _check_free(self) -> None:
+        """Raise if SDA is held low."""
+        if self._stuck is None:
+            return
+        errno, calls = self._stuck
+        if calls is None or calls > 1:
+            self._stuck = errno, None if calls is None else calls - 1
+        else:
+            self._stuck = None
+        raise os_error(errno)
 
     def _chips(self) -> Iterable[object]:
         for device in self.devices.values():
@@ -441,7 +576,7 @@ class I2CBus(Wire):
             if isinstance(device, Multiplexer):
                 device.stop()
 
-    def _carry(self, part: _Message, device: Device | None) -> None:
+    def _carry(self, part: Message, device: Device | None) -> None:
         """Put one message on the wire, as far as chip and faults let it."""
         self.messages += 1
         self.bytes += 1
@@ -450,8 +585,12 @@ class I2CBus(Wire):
             self._note(part.address, b"", read=part.length is not None, acknowledged=False)
             self._raise(fault)
             raise os_error(EREMOTEIO)
-        size = len(part.payload) if part.length is None else part.length
+        size = part.size
         got = size if fault is None else fault.reach(size)
+        if fault and fault.hold:
+            self._held += min(fault.hold, self.timeout)
+            if fault.hold <= self.timeout:
+                fault, got = None, size
         self.bytes += got
         if part.length is None:
             device.write(part.payload[:got])

@@ -1,4 +1,4 @@
-"""Simulated buses for other programs: what stands for /dev/i2c-N, /dev/spidevB.D and serial ports in a child process."""
+"""Simulated buses for other programs, which find them where Linux has /dev/i2c-N and /dev/spidevB.D."""
 
 from __future__ import annotations
 

@@ -59,6 +59,8 @@ class SPIBus(Wire):
     gpio : object
         The interface of the module ``RPi.GPIO``, in BCM mode already.
     chips : list
+    bufsiz : int
+        Bytes that the kernel takes a transfer.
     bytes : int
         Bytes on the wire since the bus was made.
     messages : int
@@ -110,9 +112,9 @@ class SPIBus(Wire):
         self.chips: list[SPIDevice] = list(chips) if isinstance(chips, Sequence) else [chips]
         for chip in self.chips:
             check_bus(chip, "spi")
-        self.dc, self.reset, self.cs = dc, reset, cs
+        self.dc, self.reset, self.cs, self.bufsiz = dc, reset, cs, bufsiz
         self._high = {line: True for line in (reset, cs) if line is not None}  # until driven, modules pull them up
-        self.spi = SpiDev(self, int(clock), bufsiz)
+        self.spi = SpiDev(self, int(clock))
         self.pins = Pins(self)
         self.gpio = GPIO(self)
 
@@ -179,8 +181,13 @@ class SPIBus(Wire):
                 if self.log:
                     self.log.write(log.Select(self._now, ()))
 
-    def _carry(self, payload: bytes, seconds: float) -> None:
-        """Put the bytes of one chip select on the wire, as far as faults let them."""
+    def select(self, run: Sequence[bytes], speed: int = 0, delay: int = 0) -> None:
+        """Put the bytes of one chip select on the wire, as far as faults let them.
+
+        `speed` in Hz stands for the bus's own, and `delay` in microseconds is waited at the end.
+        """
+        payload = b"".join(run)
+        seconds = 8 * len(payload) / (speed or self.spi.max_speed_hz or self.spi.default_speed) + delay / 1e6
         with self._lock:
             self._pass_time()
             self.messages += 1
@@ -193,7 +200,7 @@ class SPIBus(Wire):
                 self._deselect()
             if fault and fault.then:
                 fault.then()
-            self._settle(seconds * sent / len(payload), sent)
+            self._settle(seconds * sent / len(payload) if payload else seconds, sent)
             if self.log:
                 self.log.write(self._heard(payload[:sent], got))
             if fault and fault.errno:
@@ -245,21 +252,24 @@ class Pins:
         """Put a line high or low."""
         self._bus._drive(line, bool(value))
 
+    def get(self, line: int) -> bool:
+        """Return the level of a line."""
+        return self._bus._level(line)
+
 
 class SpiDev:
     """The interface of ``spidev.SpiDev``, open already."""
 
-    def __init__(self, bus: SPIBus, speed: int, bufsiz: int) -> None:
+    def __init__(self, bus: SPIBus, speed: int) -> None:
         self._bus = bus
-        self._bufsiz = bufsiz
-        self._default_speed = speed
+        self.default_speed = speed
         self.read0 = False
         self.open(0, 0)
 
     def open(self, bus: int, device: int) -> None:
         """Open the bus again after `close`; any numbers will do."""
         self._open = True
-        self._mode, self._speed = 0, self._default_speed
+        self._mode, self._speed = 0, self.default_speed
         self._cshigh = self._no_cs = False
 
     def open_path(self, path: str | os.PathLike[str]) -> None:
@@ -393,15 +403,15 @@ class SpiDev:
             raise os_error(codes.EINVAL)
 
     def _in_blocks(self, payload: bytes, speed_hz: int = 0, delay_usecs: int = 0) -> None:
-        for start in range(0, len(payload), self._bufsiz):
-            self._transfer(payload[start : start + self._bufsiz], speed_hz, delay_usecs)
+        for start in range(0, len(payload), self._bus.bufsiz):
+            self._transfer(payload[start : start + self._bus.bufsiz], speed_hz, delay_usecs)
 
     def _transfer(self, payload: bytes, speed_hz: int = 0, delay_usecs: int = 0) -> None:
         if not self._open:
             raise os_error(codes.EBADF)
-        if len(payload) > self._bufsiz:
+        if len(payload) > self._bus.bufsiz:
             raise os_error(codes.EMSGSIZE)
-        self._bus._carry(payload, 8 * len(payload) / (speed_hz or self._speed) + delay_usecs / 1e6)
+        self._bus.select([payload], speed_hz, delay_usecs)
 
 
 class GPIO:

@@ -25,6 +25,8 @@ class Fault:
     times: int | None
     then: Callable[[], object] | None
     address: int | None = None
+    hold: float = 0
+    """Seconds for which the clock is held; nothing else happens while the adapter waits that long."""
 
     def __post_init__(self) -> None:
         if self.after < 0 or (self.at_byte or 0) < 0 or (self.times is not None and self.times < 1):
