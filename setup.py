@@ -19,6 +19,16 @@ DIRECTIVES = (
 FLAGS = ["-O2", "-g0", "-ffp-contract=off"]
 # -O1 for what runs once a call.
 LEVELS = {LISTED["RUNTIME"]: ["-O1"], "paneldraw.raster.blit": ["-O3"], "paneldraw.controllers.packing": ["-O3"]}
+# No module, though it is built like one: simulator/preload.py gives it to other programs.
+PRELOAD = [
+    Extension(
+        "paneldraw.simulator._preload",
+        ["paneldraw/simulator/preload.c"],
+        libraries=["dl", "pthread"],
+        extra_compile_args=["-O2", "-g0", "-fvisibility=hidden"],
+        optional=True,
+    )
+][: sys.platform == "linux"]
 
 
 def path(module, ending):
@@ -50,7 +60,7 @@ class CythonThenC(build_ext):
             sources = [path(module, ".py") for module in LISTED["MODULES"]]
             subprocess.run([*cython, "--shared=" + LISTED["RUNTIME"], "-X", ",".join(DIRECTIVES), *sources], check=True)
         for extension in self.extensions:
-            extension.sources = [path(extension.name, ".c")]
+            extension.sources = extension.sources or [path(extension.name, ".c")]
         super().build_extensions()
 
 
@@ -59,5 +69,6 @@ setup(
     ext_modules=[
         Extension(module, [], extra_compile_args=FLAGS + LEVELS.get(module, []), optional=True)
         for module in (LISTED["RUNTIME"], *LISTED["MODULES"])
-    ],
+    ]
+    + PRELOAD,
 )

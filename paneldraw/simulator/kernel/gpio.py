@@ -31,6 +31,8 @@ _UNWATCH: Final = 0xC004B40C
 _CONFIGURE, _GET, _SET = 0xC110B40D, 0xC010B40E, 0xC010B40F
 
 _LOW, _INPUT, _OUTPUT = 2, 4, 8
+CLAIMS: Final = (_LINE, _LINE_HANDLE, _LINE_EVENT)
+"""Requests that make a file of its own: `GPIOChip.claim` does them."""
 _OUTPUT_1, _LOW_1 = 2, 4
 _HANDLE_INPUT, _HANDLE_OUTPUT, _HANDLE_LOW = 1, 2, 4
 _FLAGS, _VALUES = 1, 2
