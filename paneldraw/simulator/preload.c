@@ -32,6 +32,7 @@
 #include <sys/sysmacros.h>
 #include <sys/uio.h>
 #include <sys/un.h>
+#include <sys/xattr.h>
 #include <unistd.h>
 
 #define PUBLIC __attribute__((visibility("default")))
@@ -777,7 +778,7 @@ static int name_of(uint32_t handle, char *name, size_t room)
     } while (0)
 
 /* A function of the family of stat by a path: how it is declared and called, and the path's directory. */
-#define STATS(name_, kind_, directory, declared, called) \
+#define STATS(name_, directory, declared, called) \
     int name_ declared; \
     PUBLIC int name_ declared \
     { \
@@ -811,19 +812,19 @@ static int name_of(uint32_t handle, char *name, size_t room)
         return result; \
     }
 
-STATS(stat, stat, AT_FDCWD, (const char *path, struct stat *answer), (path, answer))
-STATS(lstat, stat, AT_FDCWD, (const char *path, struct stat *answer), (path, answer))
-STATS(stat64, stat64, AT_FDCWD, (const char *path, struct stat64 *answer), (path, answer))
-STATS(lstat64, stat64, AT_FDCWD, (const char *path, struct stat64 *answer), (path, answer))
-STATS(__xstat, stat, AT_FDCWD, (int version, const char *path, struct stat *answer), (version, path, answer))
-STATS(__lxstat, stat, AT_FDCWD, (int version, const char *path, struct stat *answer), (version, path, answer))
-STATS(__xstat64, stat64, AT_FDCWD, (int version, const char *path, struct stat64 *answer), (version, path, answer))
-STATS(__lxstat64, stat64, AT_FDCWD, (int version, const char *path, struct stat64 *answer), (version, path, answer))
-STATS(fstatat, stat, fd, (int fd, const char *path, struct stat *answer, int flags), (fd, path, answer, flags))
-STATS(fstatat64, stat64, fd, (int fd, const char *path, struct stat64 *answer, int flags), (fd, path, answer, flags))
-STATS(__fxstatat, stat, fd, (int version, int fd, const char *path, struct stat *answer, int flags),
+STATS(stat, AT_FDCWD, (const char *path, struct stat *answer), (path, answer))
+STATS(lstat, AT_FDCWD, (const char *path, struct stat *answer), (path, answer))
+STATS(stat64, AT_FDCWD, (const char *path, struct stat64 *answer), (path, answer))
+STATS(lstat64, AT_FDCWD, (const char *path, struct stat64 *answer), (path, answer))
+STATS(__xstat, AT_FDCWD, (int version, const char *path, struct stat *answer), (version, path, answer))
+STATS(__lxstat, AT_FDCWD, (int version, const char *path, struct stat *answer), (version, path, answer))
+STATS(__xstat64, AT_FDCWD, (int version, const char *path, struct stat64 *answer), (version, path, answer))
+STATS(__lxstat64, AT_FDCWD, (int version, const char *path, struct stat64 *answer), (version, path, answer))
+STATS(fstatat, fd, (int fd, const char *path, struct stat *answer, int flags), (fd, path, answer, flags))
+STATS(fstatat64, fd, (int fd, const char *path, struct stat64 *answer, int flags), (fd, path, answer, flags))
+STATS(__fxstatat, fd, (int version, int fd, const char *path, struct stat *answer, int flags),
       (version, fd, path, answer, flags))
-STATS(__fxstatat64, stat64, fd, (int version, int fd, const char *path, struct stat64 *answer, int flags),
+STATS(__fxstatat64, fd, (int version, int fd, const char *path, struct stat64 *answer, int flags),
       (version, fd, path, answer, flags))
 STATS_FD(fstat, (int fd, struct stat *answer), (fd, answer))
 STATS_FD(fstat64, (int fd, struct stat64 *answer), (fd, answer))
@@ -918,6 +919,19 @@ PUBLIC char *canonicalize_file_name(const char *path)
 {
     return realpath(path, NULL);
 }
+
+/* What `ls -l` asks beside. */
+#define XATTRS(name, declared, ...) \
+    PUBLIC ssize_t name declared \
+    { \
+        char place[PATH_MAX]; \
+        NEXT(name); \
+        return next_##name(moved(AT_FDCWD, path, place), __VA_ARGS__); \
+    }
+XATTRS(getxattr, (const char *path, const char *key, void *value, size_t room), key, value, room)
+XATTRS(lgetxattr, (const char *path, const char *key, void *value, size_t room), key, value, room)
+XATTRS(listxattr, (const char *path, char *list, size_t room), list, room)
+XATTRS(llistxattr, (const char *path, char *list, size_t room), list, room)
 
 /* -- What it calls: lists of /dev, the machine's own without its buses, then the folder's */
 
