@@ -40,6 +40,7 @@
 #define MOST_I2C_BYTES 8192
 #define MOST_I2C_MESSAGES 42
 #define MOST_SPI_TRANSFERS 512
+#define MOST_PIECES (MOST_SPI_TRANSFERS + 4)
 #define FIRST_PRIVATE 200 /* our own descriptors are out of the way of programs that count on the next number */
 #define GPIO_MAGIC 0xB4
 
@@ -322,6 +323,9 @@ static int receive_all(int fd, struct reply *reply, struct msghdr pieces)
     return 0;
 }
 
+/* How an exchange ended, where not with a result. */
+enum { REFUSED = -1, BROKEN = -2, NOT_SENT = -3 };
+
 /* Sends a request whose pieces, the first left free for its head, and takes the reply likewise. */
 static int exchange(int fd, uint32_t handle, enum operation operation, struct iovec *out, int outs, struct iovec *in,
                     int ins)
@@ -330,36 +334,44 @@ static int exchange(int fd, uint32_t handle, enum operation operation, struct io
     struct reply reply = {0, 0};
     struct msghdr there = {.msg_iov = out, .msg_iovlen = (size_t)outs};
     struct msghdr back = {.msg_iov = in, .msg_iovlen = (size_t)ins};
+    int sent;
     for (int i = 1; i < outs; i++)
         request.length += (uint32_t)out[i].iov_len;
     out[0] = (struct iovec){&request, sizeof request};
     in[0] = (struct iovec){&reply, sizeof reply};
-    if (send_all(fd, there) || receive_all(fd, &reply, back)) {
-        if (errno != EFAULT)
-            errno = ENODEV;
-        return -1;
+    sent = send_all(fd, there);
+    if (sent || receive_all(fd, &reply, back)) {
+        if (errno == EFAULT)
+            return BROKEN;
+        errno = ENODEV;
+        return sent ? NOT_SENT : BROKEN;
     }
-    if (reply.result < 0) {
-        errno = -reply.result;
-        return -2;
-    }
-    return reply.result;
+    if (reply.result >= 0)
+        return reply.result;
+    errno = -reply.result;
+    return REFUSED;
 }
 
 /* The same by this thread's connection, which is given up if it breaks: half a request may have gone. */
 static int ask(uint32_t handle, enum operation operation, struct iovec *out, int outs, struct iovec *in, int ins)
 {
-    int fd = call_up(), saved = errno;
-    int result = fd < 0 ? -1 : exchange(fd, handle, operation, out, outs, in, ins);
-    if (result >= 0) {
+    int saved = errno, result;
+    for (int again = 0;; again++) {
+        struct iovec pieces[MOST_PIECES];
+        int fd = call_up();
+        memcpy(pieces, out, (size_t)outs * sizeof *out);
+        result = fd < 0 ? BROKEN : exchange(fd, handle, operation, pieces, outs, in, ins);
+        if (result >= 0) {
+            errno = saved;
+            return result;
+        }
+        saved = errno;
+        if (result != REFUSED)
+            hang_up(NULL);
         errno = saved;
-        return result;
+        if (result != NOT_SENT || again) /* but to a server that is there again */
+            return -1;
     }
-    saved = errno;
-    if (result == -1)
-        hang_up(NULL);
-    errno = saved;
-    return -1;
 }
 
 /* Opens what the server serves. */
@@ -479,7 +491,7 @@ static int spi_message(uint32_t handle, struct ioctl_head *head, const struct sp
         uint16_t delay;
         uint8_t bits, cs_change, sends, wants;
     } packed[MOST_SPI_TRANSFERS];
-    struct iovec out[MOST_SPI_TRANSFERS + 4], in[MOST_SPI_TRANSFERS + 1];
+    struct iovec out[MOST_PIECES], in[MOST_SPI_TRANSFERS + 1];
     int outs = 4, ins = 1;
     uint32_t count = _IOC_SIZE(head->request) / sizeof *transfers;
     uint64_t total = 0;

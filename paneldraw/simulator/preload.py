@@ -48,6 +48,9 @@ class Preload:
         The buses by the numbers of bus and chip select.
     serial : mapping of str to str
         What stands for a serial port: a pty's path by a path such as /dev/ttyACM0.
+    folder : path, optional
+        Where the socket and the files that programs see are made, and stay in no one's way: an empty folder, or one
+        that is not there yet. Default: a temporary one.
 
     Attributes
     ----------
@@ -77,6 +80,8 @@ class Preload:
         i2c: Mapping[int, I2CBus] | None = None,
         spi: Mapping[tuple[int, int], SPIBus] | None = None,
         serial: Mapping[str, str] | None = None,
+        *,
+        folder: Path | None = None,
     ) -> None:
         self.i2c, self.spi, self.serial = dict(i2c or {}), dict(spi or {}), dict(serial or {})
         for path in self.serial:
@@ -84,6 +89,7 @@ class Preload:
                 raise ValueError(f"serial: {path!r} is not a path below /dev")
         self.gpio = GPIOChip(self.spi.values())
         self._sysfs = SysfsLines(self.gpio, self._show_line)
+        self._given = folder
         self._folder: Path | None = None
         self._server: Server | None = None
 
@@ -91,7 +97,7 @@ class Preload:
         library = _library()
         if self._server is not None:
             raise RuntimeError("this Preload is in use already")
-        self._folder = _new_folder()
+        self._folder = _new_folder(self._given)
         try:
             (self._folder / "preload.so").symlink_to(library)
             self._furnish(self._folder)
@@ -260,14 +266,19 @@ def _library() -> Path:
     raise PreloadUnavailableError(errno.ENOENT, f"this install has no library for simulated buses: {advice}")
 
 
-def _new_folder() -> Path:
+def _new_folder(given: Path | None) -> Path:
     """Make a folder whose path suits a socket's name and ``LD_PRELOAD``."""
+    if given is not None:
+        given.mkdir(exist_ok=True)
     for place in (None, "/tmp"):
-        folder = tempfile.mkdtemp(prefix="paneldraw-", dir=place)
+        folder = tempfile.mkdtemp(prefix="paneldraw-", dir=place) if given is None else str(given)
         if len(os.fsencode(folder)) <= _LONGEST and not set(folder) & set(" :\t\n$"):
             return Path(folder)
         os.rmdir(folder)
-    raise PreloadUnavailableError(errno.ENAMETOOLONG, "no folder for a socket: set TMPDIR to a shorter path")
+        if given is not None:
+            break
+    advice = f"take one of {_LONGEST} bytes at most, without spaces or colons"
+    raise PreloadUnavailableError(errno.ENAMETOOLONG, f"{folder} does not suit a socket and LD_PRELOAD: {advice}")
 
 
 def _first(command: Sequence[str] | str) -> str:

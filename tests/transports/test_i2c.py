@@ -1,15 +1,17 @@
-"""The I2C transport on the real smbus2, whose kernel is played here: no call below smbus2 reaches the system."""
+"""The I2C transport on the real smbus2, and below it a kernel that is played here, preloaded or real: i2c_lanes.py."""
 
 from __future__ import annotations
 
-import ctypes
 import errno
 import os
 from concurrent.futures import ThreadPoolExecutor
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 import smbus2
+from i2c_lanes import LANE, LANES, PATH, Bus
+from kernel_answers import Asker, rows
 from smbus2 import i2c_msg
 
 from paneldraw import Panel, simulator
@@ -25,52 +27,6 @@ from paneldraw.errors import (
 )
 from paneldraw.transports import COMMAND, DATA, I2CTransport, Plan
 
-DESCRIPTOR = 4711
-
-
-class Kernel:
-    """What smbus2 calls of os and fcntl, over a simulated bus; counts calls and keeps what went over the wire."""
-
-    O_RDWR = os.O_RDWR
-
-    def __init__(self, devices):
-        self.bus = simulator.I2CBus(devices)
-        self.files = {"/dev/i2c-1", "/dev/i2c-77"}
-        self.open_error = None
-        self.opened = []
-        self.calls = []
-        self.stop_after = None
-        self.longest, self.most = 8192, 42
-        self.refused = 0
-
-    def open(self, path, flags):
-        if self.open_error:
-            raise OSError(self.open_error, os.strerror(self.open_error))
-        if path not in self.files:
-            raise FileNotFoundError(errno.ENOENT, "No such file or directory")
-        self.opened.append(path)
-        return DESCRIPTOR
-
-    def close(self, descriptor):
-        assert descriptor == DESCRIPTOR
-        self.opened.pop()
-
-    def ioctl(self, descriptor, request, argument):
-        if descriptor is None:
-            raise TypeError("argument must be an int, or have a fileno() method.")
-        assert descriptor == DESCRIPTOR
-        if request != smbus2.smbus2.I2C_RDWR:
-            return 0
-        messages = [argument.msgs[i] for i in range(argument.nmsgs)]
-        if len(messages) > self.most or any(m.len > self.longest for m in messages):
-            self.refused += 1
-            raise OSError(errno.EOPNOTSUPP, "Operation not supported")
-        self.calls.append([(m.flags, ctypes.string_at(m.buf, m.len)) for m in messages])
-        if self.stop_after is not None:
-            messages = messages[: self.stop_after]
-        self.bus.i2c_rdwr(*messages)
-        return len(messages)
-
 
 @pytest.fixture
 def chip():
@@ -79,10 +35,32 @@ def chip():
 
 @pytest.fixture
 def kernel(chip, monkeypatch):
-    kernel = Kernel({0x3C: chip})
-    monkeypatch.setattr(smbus2.smbus2, "os", kernel)
-    monkeypatch.setattr(smbus2.smbus2, "ioctl", kernel.ioctl)
+    """A kernel that has the chip on bus 1: played here, or a real one; its bus, and where it is played what it holds."""
+    bus = Bus({0x3C: chip})
+    with LANES[LANE](bus, monkeypatch) as played:
+        yield played or SimpleNamespace(bus=bus)
+
+
+@pytest.fixture
+def played(kernel):
+    """A kernel that can be told what to do."""
+    if LANE != "patched":
+        pytest.skip("only where the kernel is played here")
     return kernel
+
+
+class Limited:
+    """An adapter of limits of its own."""
+
+    def __init__(self, kernel, longest=8192, most=42):
+        self.longest, self.most, self.refused = longest, most, 0
+        self._rdwr, kernel.rdwr = kernel.rdwr, self.rdwr
+
+    def rdwr(self, file, call):
+        if call.nmsgs > self.most or any(call.msgs[i].len > self.longest for i in range(call.nmsgs)):
+            self.refused += 1
+            raise OSError(errno.EOPNOTSUPP, "Operation not supported")
+        return self._rdwr(file, call)
 
 
 def plan_of(*messages):
@@ -99,12 +77,20 @@ def plan_of(*messages):
 
 
 @pytest.mark.parametrize("bus", [1, "/dev/i2c-1"])
-def test_a_bus_by_number_or_path(kernel, bus):
+def test_a_bus_by_number_or_path(kernel, chip, bus):
     transport = I2CTransport(bus)
-    assert kernel.opened == ["/dev/i2c-1"]
+    transport.command(b"\x81\x10")
     transport.close()
     transport.close()
-    assert kernel.opened == []
+    assert chip.contrast == 0x10
+
+
+@pytest.mark.parametrize("bus", [1, "1", "/dev/i2c-1"])
+def test_what_was_opened_is_closed(played, bus):
+    transport = I2CTransport(bus)
+    assert len(played.files) == 1
+    transport.close()
+    assert not played.files
 
 
 def test_messages_as_the_wire_has_them(kernel):
@@ -113,7 +99,7 @@ def test_messages_as_the_wire_has_them(kernel):
     assert transport.data(b"\x01") == 3
     plan = plan_of((COMMAND, b"\xb3\x05\x10"), (DATA, b"\xff"))
     assert transport.batch(plan) == 8
-    assert kernel.calls == [
+    assert kernel.bus.calls == [
         [(0, b"\x00\xa5\xaf")],
         [(0, b"\x40\x01")],
         [(0, b"\x00\xb3\x05\x10"), (0, b"\x40\xff")],
@@ -145,8 +131,8 @@ def test_a_picture_through_the_real_smbus2(kernel, chip):
 def test_more_messages_than_a_call_takes(kernel):
     messages = [(DATA, bytes((i,))) for i in range(100)]
     I2CTransport(1).batch(plan_of(*messages))
-    assert [len(call) for call in kernel.calls] == [42, 42, 16]
-    assert [payload for call in kernel.calls for _, payload in call] == [b"\x40" + payload for _, payload in messages]
+    assert [len(call) for call in kernel.bus.calls] == [42, 42, 16]
+    assert [payload for call in kernel.bus.calls for _, payload in call] == [b"\x40" + payload for _, payload in messages]
 
 
 @pytest.mark.parametrize("length", [8191, 8192, 65536, 65537])
@@ -154,7 +140,7 @@ def test_more_bytes_than_a_message_takes(kernel, length):
     payload = np.random.default_rng(length).bytes(length)
     pieces = -(-length // 8191)
     assert I2CTransport(1).batch(plan_of((DATA, payload))) == length + 2 * pieces
-    sent = [message for call in kernel.calls for _, message in call]
+    sent = [message for call in kernel.bus.calls for _, message in call]
     assert len(sent) == pieces
     assert all(message[0] == DATA and len(message) <= 8192 for message in sent)
     assert b"".join(message[1:] for message in sent) == payload
@@ -163,7 +149,7 @@ def test_more_bytes_than_a_message_takes(kernel, length):
 def test_an_adapter_with_short_messages_shows_the_same_picture(kernel, chip):
     picture = np.random.default_rng(8).integers(0, 2, (64, 128), np.uint8)
     Panel(SSD1306(chained_control=True), I2CTransport(1, max_message=32)).show(picture)
-    assert max(len(message) for call in kernel.calls for _, message in call) == 32
+    assert max(len(message) for call in kernel.bus.calls for _, message in call) == 32
     np.testing.assert_array_equal(chip.pixels, picture)
 
 
@@ -214,7 +200,7 @@ def test_what_linux_says_and_what_to_do(kernel, code, kind, transient, advice):
 
 def test_a_transfer_that_stops_early_is_noticed(kernel):
     transport = I2CTransport(1)
-    kernel.stop_after = 1
+    kernel.bus.fail(0, after=1)
     with pytest.raises(TransportError, match="only 1 of 2 messages"):
         transport.batch(plan_of((COMMAND, b"\xb0"), (DATA, b"\x00")))
 
@@ -229,8 +215,8 @@ def test_a_transfer_that_stops_early_is_noticed(kernel):
         (errno.EMFILE, TransportError, "Too many open files"),
     ],
 )
-def test_a_bus_that_does_not_open(kernel, code, kind, advice):
-    kernel.open_error = code
+def test_a_bus_that_does_not_open(played, code, kind, advice):
+    played.open_error = code
     with pytest.raises(kind, match=advice) as caught:
         I2CTransport(3)
     assert "/dev/i2c-3" in str(caught.value)
@@ -329,24 +315,24 @@ class Listener:
 
 
 @pytest.mark.parametrize("longest", [4096, 1000, 255, 64, 32, 20])
-def test_a_length_limit_is_measured_once(kernel, chip, longest):
-    kernel.longest = longest
+def test_a_length_limit_is_measured_once(played, chip, longest):
+    adapter = Limited(played, longest)
     random = np.random.default_rng(longest)
     with Panel(SSD1306(chained_control=True), I2CTransport(1)) as panel:
         panel.show(np.ones((64, 128), np.uint8))
         panel.clear()
-        refused = kernel.refused
+        refused = adapter.refused
         assert refused <= 14
         for _ in range(3):
             picture = random.integers(0, 2, (64, 128), np.uint8)
             panel.show(picture)
             np.testing.assert_array_equal(chip.pixels, picture)
-    assert kernel.refused == refused
+    assert adapter.refused == refused
     assert chip.violations == []
 
 
-def test_an_adapter_of_few_messages_a_call(kernel, chip):
-    kernel.most = 1
+def test_an_adapter_of_few_messages_a_call(played, chip):
+    Limited(played, most=1)
     with Panel(SSD1306(), I2CTransport(1)) as panel:
         for seed in range(3):
             picture = np.random.default_rng(seed).integers(0, 2, (64, 128), np.uint8)
@@ -437,11 +423,6 @@ def test_an_address_that_is_none_says_what_to_write(address, advice):
         I2CTransport(simulator.I2CBus(), address)
 
 
-def test_a_bus_number_as_text(kernel):
-    I2CTransport("1")
-    assert kernel.opened == ["/dev/i2c-1"]
-
-
 def test_a_bus_that_the_caller_closed(kernel):
     bus = smbus2.SMBus(1)
     transport = I2CTransport(bus)
@@ -452,19 +433,19 @@ def test_a_bus_that_the_caller_closed(kernel):
 
 
 @pytest.mark.parametrize("code", [errno.ENOTTY, errno.EINVAL])
-def test_a_path_that_is_no_bus_is_closed_again(kernel, monkeypatch, code):
+def test_a_path_that_is_no_bus_is_closed_again(played, monkeypatch, code):
     def refuse(descriptor, request, argument):
         raise OSError(code, os.strerror(code))
 
     monkeypatch.setattr(smbus2.smbus2, "ioctl", refuse)
     for _ in range(3):
-        with pytest.raises(PanelNotFoundError, match="/dev/i2c-77 is no I2C bus"):
-            I2CTransport("/dev/i2c-77")
-    assert kernel.opened == []
+        with pytest.raises(PanelNotFoundError, match="/dev/i2c-1 is no I2C bus"):
+            I2CTransport(PATH)
+    assert not played.files
 
 
-def test_a_panel_that_cannot_be_opened_closes_its_transport(kernel):
-    kernel.bus.devices.clear()
+def test_a_panel_that_cannot_be_opened_closes_its_transport(played):
+    played.bus.devices.clear()
     for _ in range(3):
         with pytest.raises(PanelNotFoundError):
             Panel(SSD1306(), I2CTransport(1))
@@ -472,4 +453,33 @@ def test_a_panel_that_cannot_be_opened_closes_its_transport(kernel):
             Panel(SSD1306(), I2CTransport(1), rotate=45)
         with pytest.raises(ValueError, match="on_close"):
             Panel(SSD1306(), I2CTransport(1), on_close="burn")
-    assert kernel.opened == []
+    assert not played.files
+
+
+# -- What the kernel answers
+
+
+@pytest.fixture
+def asker(kernel):
+    """One that asks the kernel, on the bus that kernel_answers.txt describes."""
+    bus = kernel.bus
+    bus.devices = {address: Counter() for address in (0x3C, 0x30, 0x31, 0x32)}
+    bus.claimed = {0x6B}
+    for address, code in ((0x30, 0), (0x31, errno.EAGAIN), (0x32, errno.ETIMEDOUT)):
+        bus.fail(code, address=address, times=None)
+    return Asker(PATH, kernel, kernel.ioctl) if LANE == "patched" else Asker(PATH)
+
+
+class Counter(Listener):
+    """A device that answers with 1, 2, 3 and so on."""
+
+    def __init__(self):
+        super().__init__([])
+
+    def read(self, length):
+        return bytes(at + 1 & 0xFF for at in range(length))
+
+
+@pytest.mark.parametrize(("request_", "answer"), rows())
+def test_what_linux_answers(asker, request_, answer):
+    assert asker.answer(request_) == answer

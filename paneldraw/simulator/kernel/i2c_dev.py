@@ -150,7 +150,7 @@ class I2CFile:
     def ioctl(self, request: int, value: int, argument: bytes) -> tuple[int, bytes]:
         """Do a request as the C library packs it; return what the call returns, and what goes back."""
         if request == I2C_RDWR:
-            messages = _unpacked(argument)
+            messages = unpacked(argument)
             done = self.bus.rdwr(messages)
             return done, b"".join([m.answer.ljust(m.length, b"\0") for m in messages if m.length is not None])
         if request == I2C_SMBUS:
@@ -162,7 +162,7 @@ class I2CFile:
         return 0, b""
 
 
-def _unpacked(argument: bytes) -> list[Message]:
+def unpacked(argument: bytes) -> list[Message]:
     """Messages as they are packed: all headers behind their number, then what the buffers hold."""
     (count,) = struct.unpack_from("=I", argument)
     at = 4 + count * _MESSAGE.size
