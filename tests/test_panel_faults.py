@@ -105,6 +105,93 @@ def test_a_fault_at_the_start_or_at_the_end_is_ours(code):
     panel.close()
 
 
+# -- What happens to a bus
+
+
+def other_master(glass):
+    """Another program moves the pointer, and the window."""
+    glass.write(b"\x00" + bytes.fromhex("21 20 5F 22 02 03 B3 05 12"))
+
+
+FAULTS = {
+    "short": lambda bus, glass: bus.fail(0, after=1),
+    "short in a message": lambda bus, glass: bus.fail(0, at_byte=3),
+    "stuck, soon free": lambda bus, glass: bus.stick(calls=2),
+    "stuck, soon free, busy": lambda bus, glass: bus.stick(errno.EAGAIN, calls=2),
+    "a long stretch": lambda bus, glass: bus.stretch(2, at_byte=2),
+    "a short stretch": lambda bus, glass: bus.stretch(0.5),
+    "a reset": lambda bus, glass: bus.fail(at_byte=4, then=glass.reset),
+    "a brown-out": lambda bus, glass: bus.fail(after=1, at_byte=30, then=glass.power_cycle),
+    "arbitration lost": lambda bus, glass: bus.fail(errno.EAGAIN, at_byte=2, then=lambda: other_master(glass)),
+    "stuck": lambda bus, glass: bus.stick(),
+    "short for ever": lambda bus, glass: bus.fail(0, times=None),
+    "a stretch for ever": lambda bus, glass: bus.stretch(5, times=None),
+}
+LASTING = ("stuck", "short for ever", "a stretch for ever")
+
+
+@pytest.mark.parametrize("fault", FAULTS)
+@pytest.mark.parametrize("chip", [SSD1306, SH1106, SSD1327], ids=["ssd1306", "sh1106", "ssd1327"])
+@pytest.mark.parametrize("fresh", [False, True], ids=["the same picture", "a new picture"])
+def test_the_next_show_is_whole_or_says_what_to_do(chip, fault, fresh):
+    transport, glass, bus = made(chip)
+    with Panel(chip(), transport) as panel:
+        first = picture(panel, 1)
+        panel.show(first)
+        first[10:14, 20:70] ^= 1
+        wanted = picture(panel, 2) if fresh else first
+        FAULTS[fault](bus, glass)
+        if fault in LASTING:
+            with pytest.raises(PanelError, match="check|pull-up") as caught:
+                panel.show(wanted)
+            assert caught.value.errno in (errno.EIO, errno.ETIMEDOUT)
+            bus.clear_faults()
+        panel.show(wanted)
+        np.testing.assert_array_equal(glass.pixels, wanted)
+        assert glass.registers.on
+
+
+@pytest.mark.parametrize("lost", ["reset", "power_cycle"])
+def test_a_module_that_restarts_between_two_shows_is_noticed_within_a_second(monkeypatch, lost):
+    now = [0.0]
+    monkeypatch.setattr("paneldraw.panel.time.perf_counter", lambda: now[0])
+    transport, glass, _ = made(SSD1306)
+    with Panel(SSD1306(), transport) as panel:
+        wanted = picture(panel, 1)
+        panel.show(wanted)
+        getattr(glass, lost)()
+        now[0] += 1.1
+        panel.show(wanted)
+        np.testing.assert_array_equal(glass.pixels, wanted)
+
+
+@pytest.mark.parametrize("chip", [SSD1306, SH1106], ids=["ssd1306", "sh1106"])
+def test_two_masters_a_panel_that_assumes_nothing_is_whole(chip):
+    transport, glass, _ = made(chip)
+    with Panel(chip(), transport, updates="plain") as panel:
+        wanted = picture(panel, 1)
+        for seed in range(20):
+            wanted[seed : seed + 9, 3 * seed : 3 * seed + 30] ^= 1
+            panel.show(wanted)
+            np.testing.assert_array_equal(glass.pixels, wanted)
+            if chip is SSD1306:
+                other_master(glass)
+            else:
+                glass.write(b"\x00\xb3\x05\x12")
+
+
+def test_two_masters_a_panel_that_saves_bytes_is_whole_when_it_is_told():
+    transport, glass, _ = made(SSD1306)
+    with Panel(SSD1306(), transport) as panel:
+        wanted = picture(panel, 1)
+        for seed in range(20):
+            wanted[seed : seed + 9, 3 * seed : 3 * seed + 30] ^= 1
+            panel.show(wanted)
+            np.testing.assert_array_equal(glass.pixels, wanted)
+            other_master(glass)
+            panel.invalidate()
+
+
 @pytest.mark.parametrize(
     ("hours", "cut_every", "seed"),
     [(0.05, 30, 7), *(pytest.param(1, 3600, seed, marks=pytest.mark.thorough) for seed in (8, 9, 10))],

@@ -233,7 +233,8 @@ class I2CTransport:
         except (OSError, TypeError, AttributeError) as error:
             raise self._failure(error) from error
         if done is not None and done < len(messages):
-            short = TransportError(errno.EIO, f"only {done} of {len(messages)} messages reached {self._where()}")
+            reached = f"only {done} of {len(messages)} messages reached {self._where()}"
+            short = TransportError(errno.EIO, f"{reached}: check the panel's wiring and power")
             raise transient(short) if self._answered else short
         self._answered = True
         return extra
@@ -261,7 +262,7 @@ class I2CTransport:
     def _rdwr(self, *messages: Any) -> int | None:
         """Transfer messages; return how many went through, if that is known."""
         library = self._smbus2.smbus2
-        if type(self.bus) is not library.SMBus:
+        if getattr(type(self.bus), "i2c_rdwr", None) is not library.SMBus.i2c_rdwr:
             return self.bus.i2c_rdwr(*messages)  # type: ignore[no-any-return]
         # What SMBus.i2c_rdwr does, which forgets the number that the kernel returns.
         call = library.i2c_rdwr_ioctl_data.create(*messages)
@@ -346,10 +347,9 @@ class _Mux:
         """Send messages through the channel; return the bytes of its selection, and how many messages went through."""
         if self._together and len(messages) < MESSAGES_A_CALL:
             done = rdwr(self._select, *messages)
-            return _FRAMING, None if done is None else done - 1
+            return _FRAMING, None if done is None else max(done, 1) - 1
         with self._lock.held:
-            rdwr(self._select)
-            return _FRAMING, rdwr(*messages)
+            return _FRAMING, 0 if rdwr(self._select) == 0 else rdwr(*messages)
 
 
 class _Lock:

@@ -162,3 +162,85 @@ def test_faults_that_cannot_be(arguments: dict[str, int]) -> None:
     _, bus = bench()
     with pytest.raises(ValueError, match="after and at_byte"):
         bus.fail(**arguments)  # type: ignore[arg-type]
+
+
+def test_a_stuck_bus_carries_nothing_until_it_is_freed() -> None:
+    chip, bus = bench()
+    bus.stick(errno.EAGAIN)
+    for _ in range(3):
+        with pytest.raises(OSError) as caught:  # noqa: PT011
+            bus.i2c_rdwr(i2c_msg.write(0x3C, FULL))
+        assert caught.value.errno == errno.EAGAIN
+    assert (bus.bytes, bus.messages, bus.transactions) == (0, 0, 3)
+    bus.recover()
+    bus.i2c_rdwr(i2c_msg.write(0x3C, FULL))
+    assert chip.registers.on
+
+
+def test_an_adapter_that_recovers_by_itself() -> None:
+    _, bus = bench()
+    bus.stick(calls=2)
+    outcomes = []
+    for _ in range(4):
+        try:
+            bus.write_quick(0x3C)
+            outcomes.append(0)
+        except OSError as error:
+            outcomes.append(error.errno or -1)
+    assert outcomes == [errno.ETIMEDOUT, errno.ETIMEDOUT, 0, 0]
+
+
+@pytest.mark.parametrize(("seconds", "late"), [(0.4, False), (1.0, False), (1.5, True)])
+def test_a_stretched_clock_takes_its_time_or_the_adapter_gives_up(seconds: float, late: bool) -> None:
+    chip, bus = bench()
+    bus.stretch(seconds, at_byte=3, after=1)
+    bus.write_quick(0x3C)
+    before = bus.seconds
+    try:
+        bus.i2c_rdwr(i2c_msg.write(0x3C, b"\x00\x81\x55\xaf"))
+        assert not late
+    except OSError as error:
+        assert late
+        assert error.errno == errno.ETIMEDOUT
+    assert bus.seconds - before == pytest.approx(min(seconds, 1), abs=1e-3)
+    assert (chip.contrast, chip.registers.on) == (0x55, not late)
+    bus.timeout = 2
+    bus.stretch(seconds)
+    bus.write_quick(0x3C)
+
+
+def test_the_kernel_tries_again_as_often_as_it_was_told() -> None:
+    _, bus = bench()
+    bus.retries = 2
+    bus.fail(errno.EAGAIN, times=2)
+    bus.write_quick(0x3C)
+    assert bus.transactions == 3
+    bus.fail(errno.EAGAIN, times=3)
+    with pytest.raises(BlockingIOError):
+        bus.write_quick(0x3C)
+    bus.fail(errno.ETIMEDOUT)
+    with pytest.raises(TimeoutError):
+        bus.write_quick(0x3C)
+    assert bus.transactions == 7
+
+
+def test_an_address_that_a_driver_holds() -> None:
+    chip, bus = bench()
+    bus.claimed.add(0x3C)
+    with pytest.raises(OSError) as caught:  # noqa: PT011
+        bus.write_byte_data(0x3C, 0x00, 0xAF)
+    assert caught.value.errno == errno.EBUSY
+    bus.write_byte_data(0x3C, 0x00, 0xAF, force=True)
+    assert chip.registers.on
+    bus.i2c_rdwr(i2c_msg.write(0x3C, b"\x00\xae"))
+    assert not chip.registers.on
+
+
+def test_faults_of_the_lines_that_cannot_be() -> None:
+    _, bus = bench()
+    with pytest.raises(ValueError, match="seconds"):
+        bus.stretch(0)
+    with pytest.raises(ValueError, match="errno and calls"):
+        bus.stick(0)
+    with pytest.raises(ValueError, match="errno and calls"):
+        bus.stick(calls=0)
