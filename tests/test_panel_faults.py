@@ -142,7 +142,7 @@ def test_the_next_show_is_whole_or_says_what_to_do(chip, fault, fresh):
         wanted = picture(panel, 2) if fresh else first
         FAULTS[fault](bus, glass)
         if fault in LASTING:
-            with pytest.raises(PanelError, match="check|pull-up") as caught:
+            with pytest.raises(PanelError, match=r"check|pull-up") as caught:
                 panel.show(wanted)
             assert caught.value.errno in (errno.EIO, errno.ETIMEDOUT)
             bus.clear_faults()

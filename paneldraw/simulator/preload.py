@@ -94,12 +94,12 @@ class Preload:
         self._server: Server | None = None
 
     def __enter__(self) -> Preload:
-        library = _library()
+        built = library()
         if self._server is not None:
             raise RuntimeError("this Preload is in use already")
         self._folder = _new_folder(self._given)
         try:
-            (self._folder / "preload.so").symlink_to(library)
+            (self._folder / "preload.so").symlink_to(built)
             self._furnish(self._folder)
             self._server = Server(str(self._folder / "socket"), self._open)
         except BaseException:
@@ -251,7 +251,7 @@ def _unreachable(head: bytes) -> str | None:
     return "is linked statically, and loads no libraries"
 
 
-def _library() -> Path:
+def library() -> Path:
     """Find the C library."""
     if sys.platform != "linux":
         raise PreloadUnavailableError(

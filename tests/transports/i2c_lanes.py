@@ -12,6 +12,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import smbus2
+from user_mode_linux import ADAPTER
 
 from paneldraw import simulator
 from paneldraw.simulator.bus import Message
@@ -19,8 +20,8 @@ from paneldraw.simulator.kernel import i2c_dev
 
 LANE = os.environ.get("I2C_LANE", "patched")
 PATH = "/dev/i2c-1"
-ADAPTER = "/dev/simulated-adapter"
-"""Through which user-mode Linux asks for what is to be done on the wire."""
+DMA_SAFE = 0x0200
+"""A flag that i2c-dev adds for its adapters."""
 
 
 class Bus(simulator.I2CBus):
@@ -136,6 +137,8 @@ def user_mode_linux(bus, monkeypatch):
 def _serve(adapter, bus):
     while call := os.read(adapter, 1 << 20):
         messages = i2c_dev.unpacked(call)
+        for message in messages:
+            message.flags &= ~DMA_SAFE
         try:
             result = bus.transfer(messages)
         except OSError as error:

@@ -1,8 +1,8 @@
 """Asks a kernel, real or played, what kernel_answers.txt has, in its words.
 
-``rdwr`` with messages such as ``w3c/2`` (write two bytes to 3c), ``42*r3c/4`` (read four, 42 times), a t for an address
-of ten bits, an l for a read that begins with its length, ! for a buffer nowhere; ``slave``, ``force``, ``ten``, ``pec``,
-``retries``, ``timeout``, ``funcs``, ``ioctl``; ``read``, ``write``; ``smbus`` with direction, kind and count.
+``rdwr`` with messages such as ``w3c/2`` (write two bytes to 3c) and ``42*r3c/4`` (read four, 42 times), where t is an
+address of ten bits, l a read that begins with its length, and ! a buffer nowhere; ``slave``, ``force``, ``ten``,
+``pec``, ``retries``, ``timeout``, ``funcs``, ``ioctl``; ``read``, ``write``; ``smbus`` with direction, kind, and count.
 """
 
 from __future__ import annotations

@@ -35,7 +35,7 @@ def chip():
 
 @pytest.fixture
 def kernel(chip, monkeypatch):
-    """A kernel that has the chip on bus 1: played here, or a real one; its bus, and where it is played what it holds."""
+    """A kernel that has the chip on bus 1: one that is played here with all that it holds, or the bus of a real one."""
     bus = Bus({0x3C: chip})
     with LANES[LANE](bus, monkeypatch) as played:
         yield played or SimpleNamespace(bus=bus)
@@ -132,7 +132,9 @@ def test_more_messages_than_a_call_takes(kernel):
     messages = [(DATA, bytes((i,))) for i in range(100)]
     I2CTransport(1).batch(plan_of(*messages))
     assert [len(call) for call in kernel.bus.calls] == [42, 42, 16]
-    assert [payload for call in kernel.bus.calls for _, payload in call] == [b"\x40" + payload for _, payload in messages]
+    assert [payload for call in kernel.bus.calls for _, payload in call] == [
+        b"\x40" + payload for _, payload in messages
+    ]
 
 
 @pytest.mark.parametrize("length", [8191, 8192, 65536, 65537])
