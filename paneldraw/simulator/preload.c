@@ -82,6 +82,20 @@ static void note(int fd)
 }
 
 static uint32_t handle_of(int fd);
+static int folder_of(int directory, char *answer);
+static void settle(void);
+static int inside; /* whether the present directory is one of the folder's */
+
+static int begins(const char *text, const char *with)
+{
+    return !strncmp(text, with, strlen(with));
+}
+
+static void look_where_we_are(void)
+{
+    char here[PATH_MAX];
+    inside = folder_length && folder_of(AT_FDCWD, here) && begins(here, folder) && here[folder_length] == '/';
+}
 
 __attribute__((constructor)) static void set_up(void)
 {
@@ -93,11 +107,7 @@ __attribute__((constructor)) static void set_up(void)
     for (int fd = 0; fd < 256; fd++) /* handed down by the program that executed this one */
         if (handle_of(fd))
             note(fd);
-}
-
-static int begins(const char *text, const char *with)
-{
-    return !strncmp(text, with, strlen(with));
+    look_where_we_are();
 }
 
 static int is_device(const char *name)
@@ -170,10 +180,17 @@ static const char *moved(int directory, const char *path, char *place)
     set_up();
     if (!folder_length || !path || !*path)
         return path;
-    if (*path == '/' ? !begins(path, "/dev/") && !begins(path, "/sys/") : !is_device(path) && !strchr(path, '/'))
+    if (*path == '/' ? !begins(path, "/dev/") && !begins(path, "/sys/")
+                     : !is_device(path) && !strchr(path, '/') && !inside)
         return path;
-    if (*path != '/' && (!folder_of(directory, base) || (!begins(base, "/dev") && !begins(base, "/sys"))))
-        goto own;
+    if (*path != '/') {
+        if (!folder_of(directory, base))
+            goto own;
+        if (begins(base, folder) && base[folder_length] == '/')
+            memmove(base, base + folder_length, strlen(base) - folder_length + 1);
+        if (!begins(base, "/dev") && !begins(base, "/sys"))
+            goto own;
+    }
     if (folder_length + strlen(base) + 1 + strlen(path) >= PATH_MAX)
         goto own;
     memcpy(place, folder, folder_length);
@@ -188,6 +205,8 @@ static const char *moved(int directory, const char *path, char *place)
     }
     *end = 0;
     if (is_replaced(place + folder_length)) {
+        if (begins(place + folder_length, "/sys/class/gpio"))
+            settle();
         errno = saved;
         return place;
     }
@@ -372,6 +391,13 @@ static int ask(uint32_t handle, enum operation operation, struct iovec *out, int
         if (result != NOT_SENT || again) /* but to a server that is there again */
             return -1;
     }
+}
+
+/* Has the server take what was written to lines' files by other ways than `write`: they may make or end a directory. */
+static void settle(void)
+{
+    struct iovec out[1], in[1];
+    ask(0, NAME, out, 1, in, 1);
 }
 
 /* Opens what the server serves. */
@@ -865,6 +891,27 @@ PUBLIC int access(const char *path, int mode)
     char place[PATH_MAX];
     NEXT(access);
     return next_access(moved(AT_FDCWD, path, place), mode);
+}
+
+PUBLIC int chdir(const char *path)
+{
+    char place[PATH_MAX];
+    int result;
+    NEXT(chdir);
+    result = next_chdir(moved(AT_FDCWD, path, place));
+    if (!result)
+        look_where_we_are();
+    return result;
+}
+
+PUBLIC int fchdir(int fd)
+{
+    int result;
+    NEXT(fchdir);
+    result = next_fchdir(fd);
+    if (!result)
+        look_where_we_are();
+    return result;
 }
 
 PUBLIC int euidaccess(const char *path, int mode)
