@@ -128,6 +128,29 @@ def test_threads_and_processes_that_share_a_descriptor(desk: Desk, bus_user: str
     assert sorted(desk.echo.log) == sorted(bytes((name, number)) for name in range(8) for number in range(100))
 
 
+@pytest.mark.parametrize(
+    ("machine", "emulator"),
+    [("arm-linux-gnueabihf", "qemu-arm-static"), ("aarch64-linux-gnu", "qemu-aarch64-static")],
+)
+@pytest.mark.parametrize("way", ["forks", "lines"])
+def test_on_machines_of_32_and_64_bits(desk: Desk, tmp_path: Path, machine: str, emulator: str, way: str) -> None:
+    compiler = f"{machine}-gcc"
+    if shutil.which(compiler) is None or shutil.which(emulator) is None:
+        pytest.skip(f"no {compiler} or no {emulator}")
+    desk.i2c.devices[0x3C] = desk.echo
+    flags = ["-O2", "-fPIC", "-shared", "-fvisibility=hidden", "-Wall", "-Wextra", "-Wconversion", "-Werror"]
+    source = Path(preloading.__file__).with_name("preload.c")
+    library = tmp_path / "preload.so"
+    subprocess.run([compiler, *flags, "-o", library, source, "-ldl", "-lpthread"], check=True)
+    program = compiled(tmp_path, compiler, "-pthread")
+    folder = desk.preload.environment()["PANELDRAW_PRELOAD"]
+    inside = ["-L", f"/usr/{machine}", "-E", f"LD_PRELOAD={library}", "-E", f"PANELDRAW_PRELOAD={folder}"]
+    done = subprocess.run([emulator, *inside, program, way], capture_output=True, text=True, timeout=60)
+    assert done.returncode == 0, done.stderr
+    assert done.stdout == ("1000000 4\n" if way == "lines" else "")
+    assert len({bytes(message) for message in desk.echo.log}) == (800 if way == "forks" else 0)
+
+
 def test_descriptors_that_are_duplicated_closed_and_inherited(desk: Desk, bus_user: str) -> None:
     desk.i2c.devices[0x3C] = desk.echo
     assert desk.run(bus_user, "duplicates") == "11 22 1\n"
