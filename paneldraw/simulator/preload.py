@@ -24,6 +24,8 @@ from .wire import os_error
 
 _LONGEST: Final = 107 - len("/socket")
 """Of a folder whose socket has a name that the kernel takes."""
+_MEMORY: Final = "/dev/shm"
+"""Where files come and go fastest."""
 _INTERPRETER: Final = 3
 _LINE_FILES: Final = ("value", "direction", "active_low", "edge")
 
@@ -270,7 +272,8 @@ def _new_folder(given: Path | None) -> Path:
     """Make a folder whose path suits a socket's name and ``LD_PRELOAD``."""
     if given is not None:
         given.mkdir(exist_ok=True)
-    for place in (None, "/tmp"):
+    quick = [_MEMORY] if os.access(_MEMORY, os.W_OK | os.X_OK) else []
+    for place in (*quick, None, "/tmp"):
         folder = tempfile.mkdtemp(prefix="paneldraw-", dir=place) if given is None else str(given)
         if len(os.fsencode(folder)) <= _LONGEST and not set(folder) & set(" :\t\n$"):
             return Path(folder)

@@ -25,6 +25,7 @@ _REPLY: Final = struct.Struct("=Ii")
 _IOCTL: Final = struct.Struct("=IIQ")
 _MOST: Final = (1 << 20) + (1 << 16)
 """Bytes that may follow: what preload.c lets through at most, and its heads."""
+_ROOM: Final = 1 << 16
 _MOST_NAME: Final = 4096
 _MOST_CONNECTIONS: Final = 1000
 
@@ -75,6 +76,8 @@ class Server:
         self._open_file = open_file
         self._devices: dict[int, _Device] = {}
         self._callers: dict[socket.socket, threading.Thread] = {}
+        self._texts = 0
+        """How many of the devices are files that take text."""
         self._lock = threading.RLock()
         self._listener = socket.socket(socket.AF_UNIX)
         self._listener.bind(path)
@@ -164,6 +167,7 @@ class Server:
                 raise os_error(errno.ENAMETOOLONG)
             if name != "lines":  # which somebody's claim will follow for
                 device.file = self._open_file(name)
+                self._texts += isinstance(device.file, SysfsFile)
             device.name = name
             reply = _REPLY.pack(0, 0)
             if operation == Operation.OPEN_STREAM and isinstance(device.file, SysfsFile):
@@ -186,6 +190,7 @@ class Server:
         self._selector.unregister(device.connection)
         device.connection.close()
         if device.file is not None:
+            self._texts -= isinstance(device.file, SysfsFile)
             device.file.close()
 
     def _take_text(self, handle: int, device: _Device) -> None:
@@ -207,6 +212,8 @@ class Server:
 
     def _take_texts(self) -> None:
         """Take all that was written before the present request."""
+        if not self._texts:
+            return
         with self._lock:
             for handle, device in list(self._devices.items()):
                 if isinstance(device.file, SysfsFile):
@@ -217,7 +224,8 @@ class Server:
     def _answer(self, connection: socket.socket) -> None:
         try:
             with connection, contextlib.suppress(ConnectionError):
-                while (request := _received(connection)) is not None:
+                buffer = memoryview(bytearray(_ROOM))
+                while (request := _received(connection, buffer)) is not None:
                     connection.sendall(self._reply(*request))
         finally:
             with self._lock:
@@ -261,20 +269,23 @@ class Server:
         return 0, b""
 
 
-def _received(connection: socket.socket) -> tuple[int, int, bytes] | None:
+def _received(connection: socket.socket, buffer: memoryview) -> tuple[int, int, bytes] | None:
     """Receive one request: handle, operation, and what follows. None at the end, or where there is nonsense."""
-    message = connection.recv(1 << 16)
-    if len(message) < _REQUEST.size:
+    got = connection.recv_into(buffer)
+    if got < _REQUEST.size:
         return None
-    length, handle, operation = _REQUEST.unpack_from(message)
-    missing = _REQUEST.size + length - len(message)
+    length, handle, operation = _REQUEST.unpack_from(buffer)
+    payload = buffer[_REQUEST.size : got].tobytes()
+    missing = length - len(payload)
     if length > _MOST or missing < 0:
         return None
-    pieces = [message[_REQUEST.size :]]
-    while missing:
-        piece = connection.recv(min(missing, 1 << 16))
-        if not piece:
-            return None
-        pieces.append(piece)
-        missing -= len(piece)
-    return handle, operation, b"".join(pieces)
+    if missing:
+        pieces = [payload]
+        while missing:
+            piece = connection.recv(min(missing, _ROOM))
+            if not piece:
+                return None
+            pieces.append(piece)
+            missing -= len(piece)
+        payload = b"".join(pieces)
+    return handle, operation, payload
