@@ -14,6 +14,7 @@
 #include <dlfcn.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <glob.h>
 #include <limits.h>
 #include <linux/i2c-dev.h>
 #include <linux/i2c.h>
@@ -1096,3 +1097,80 @@ static int is_hidden(const char *name)
     }
 READS_DIRECTORIES(readdir, dirent)
 READS_DIRECTORIES(readdir64, dirent64)
+
+/* The C library's own of these read directories by ways of its own. */
+#define SCANS(name, entry_, read_) \
+    static int collect_##name(DIR *directory, struct entry_ ***list, int (*wanted)(const struct entry_ *)) \
+    { \
+        struct entry_ *entry, *copy, **longer; \
+        int count = 0; \
+        while ((entry = read_(directory))) { \
+            if (wanted && !wanted(entry)) \
+                continue; \
+            longer = realloc(*list, ((size_t)count + 1) * sizeof **list); \
+            if (!longer) \
+                return -count - 1; \
+            *list = longer; \
+            copy = malloc(entry->d_reclen > sizeof *copy ? entry->d_reclen : sizeof *copy); \
+            if (!copy) \
+                return -count - 1; \
+            (*list)[count++] = memcpy(copy, entry, entry->d_reclen); \
+        } \
+        return count; \
+    } \
+    PUBLIC int name(const char *path, struct entry_ ***answer, int (*wanted)(const struct entry_ *), \
+                    int (*order)(const struct entry_ **, const struct entry_ **)) \
+    { \
+        DIR *directory = opendir(path); \
+        struct entry_ **list = NULL; \
+        int count; \
+        if (!directory) \
+            return -1; \
+        count = collect_##name(directory, &list, wanted); \
+        closedir(directory); \
+        if (count < 0) { \
+            while (++count) \
+                free(list[-count - 1]); \
+            free(list); \
+            return refuse(ENOMEM); \
+        } \
+        if (order && count) \
+            qsort(list, (size_t)count, sizeof *list, (int (*)(const void *, const void *))(void (*)(void))order); \
+        *answer = list ? list : malloc(sizeof *list); \
+        return count; \
+    }
+SCANS(scandir, dirent, readdir)
+SCANS(scandir64, dirent64, readdir64)
+
+static void *open_listing(const char *path)
+{
+    return opendir(path);
+}
+
+static void close_listing(void *directory)
+{
+    closedir(directory);
+}
+
+#define GLOBS(name, results, entry_, stat_) \
+    static struct entry_ *read_for_##name(void *directory) \
+    { \
+        return read##entry_##_(directory); \
+    } \
+    PUBLIC int name(const char *pattern, int flags, int (*failed)(const char *, int), results *found) \
+    { \
+        NEXT(name); \
+        if (!(flags & GLOB_ALTDIRFUNC)) { \
+            flags |= GLOB_ALTDIRFUNC; \
+            found->gl_opendir = open_listing; \
+            found->gl_closedir = close_listing; \
+            found->gl_readdir = read_for_##name; \
+            found->gl_stat = stat_; \
+            found->gl_lstat = l##stat_; \
+        } \
+        return next_##name(pattern, flags, failed, found); \
+    }
+#define readdirent_ readdir
+#define readdirent64_ readdir64
+GLOBS(glob, glob_t, dirent, stat)
+GLOBS(glob64, glob64_t, dirent64, stat64)

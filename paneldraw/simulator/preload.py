@@ -185,7 +185,7 @@ class Preload:
 
     def _furnish_lines(self, root: Path) -> None:
         _write(root / "dev/gpiochip0")
-        (root / "sys/bus/gpio/devices/gpiochip0").mkdir(parents=True)
+        _write(root / "sys/bus/gpio/devices/gpiochip0/dev", "254:0\n")
         _link(root / "sys/dev/char/254:0/subsystem", "../../../bus/gpio")
         for name, text in {"base": "0", "ngpio": str(LINES), "label": LABEL}.items():
             _write(root / f"sys/class/gpio/gpiochip0/{name}", f"{text}\n")

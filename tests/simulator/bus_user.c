@@ -1,6 +1,9 @@
 /* A program that uses /dev/i2c-1, /dev/spidev0.0 and /dev/gpiochip0 as C programs do: `bus_user WAY [DESCRIPTOR]`. */
+#define _DEFAULT_SOURCE
+#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <glob.h>
 #include <linux/gpio.h>
 #include <linux/i2c-dev.h>
 #include <linux/i2c.h>
@@ -97,6 +100,25 @@ static void inherited(const char *number)
     printf("%02x %02x %d\n", in[0], in[1], S_ISCHR(about.st_mode));
 }
 
+static int is_bus(const struct dirent *entry)
+{
+    return !strncmp(entry->d_name, "i2c-", 4) || !strncmp(entry->d_name, "gpiochip", 8);
+}
+
+static void looks(void)
+{
+    struct dirent **names;
+    glob_t found;
+    int count = scandir("/dev", &names, is_bus, alphasort);
+    check(count, "scandir");
+    for (int i = 0; i < count; i++)
+        puts(names[i]->d_name);
+    check(-glob("/dev/i2c*", 0, NULL, &found), "glob");
+    for (size_t i = 0; i < found.gl_pathc; i++)
+        puts(found.gl_pathv[i]);
+    globfree(&found);
+}
+
 static void lines(void)
 {
     int chip = opened("/dev/gpiochip0"), spi = opened("/dev/spidev0.0");
@@ -125,6 +147,8 @@ int main(int count, char **words)
         inherited(words[2]);
     else if (!strcmp(way, "lines"))
         lines();
+    else if (!strcmp(way, "looks"))
+        looks();
     else {
         bus = opened("/dev/i2c-1");
         if (!strcmp(way, "threads"))

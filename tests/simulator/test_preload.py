@@ -118,6 +118,15 @@ def test_i2ctransfer_i2cset_and_i2cget(desk: Desk) -> None:
         assert said in failed.stderr
 
 
+@needs("gpiodetect", "gpioset", "gpiofind")
+def test_gpiodetect_and_gpioset(desk: Desk) -> None:
+    assert desk.run("gpiodetect") == "gpiochip0 [pinctrl-bcm2711] (58 lines)\n"
+    assert desk.run("gpiofind", "GPIO24") == "gpiochip0 24\n"
+    assert not desk.spi.pins.get(24)
+    desk.run("gpioset", "gpiochip0", "24=1")
+    assert desk.spi.pins.get(24)
+
+
 # -- C
 
 
@@ -154,6 +163,10 @@ def test_on_machines_of_32_and_64_bits(desk: Desk, tmp_path: Path, machine: str,
 def test_descriptors_that_are_duplicated_closed_and_inherited(desk: Desk, bus_user: str) -> None:
     desk.i2c.devices[0x3C] = desk.echo
     assert desk.run(bus_user, "duplicates") == "11 22 1\n"
+
+
+def test_what_c_finds_in_a_folder(desk: Desk, bus_user: str) -> None:
+    assert desk.run(bus_user, "looks").split() == ["gpiochip0", "i2c-1", "/dev/i2c-1"]
 
 
 def test_spi_and_lines_from_c(desk: Desk, bus_user: str) -> None:
