@@ -300,7 +300,7 @@ def test_a_shell_sets_lines_through_sysfs(desk: Desk) -> None:
     driven: list[bool] = []
     desk.preload.gpio.lines[4].wires.append(driven.append)
     script = """
-        cd /sys/class/gpio
+        cd /sys/class/gpio || exit
         echo 4 > export && echo out > gpio4/direction && echo 1 > gpio4/value && cat gpio4/value gpio4/direction
         echo 0 > gpio4/value; read value < gpio4/value; echo $value
         echo 4 > unexport; ls -d gpio*
