@@ -25,6 +25,7 @@ from .views import open_view
 
 if TYPE_CHECKING:
     from .player import Replayed, replay
+    from .preload import Preload, PreloadUnavailableError
     from .web import serve
 
 __all__ = [
@@ -57,6 +58,8 @@ __all__ = [
     "Log",
     "Look",
     "Multiplexer",
+    "Preload",
+    "PreloadUnavailableError",
     "Replayed",
     "SPIBus",
     "TerminalView",
@@ -72,8 +75,8 @@ __all__ = [
 ]
 
 
-#: Names that are imported only where somebody asks for them, with what they need: asyncio, zipfile.
-_LATER = {"serve": "web", "replay": "player", "Replayed": "player"}
+#: Names that are imported only where somebody asks for them, with what they need: asyncio, zipfile, subprocess.
+_LATER = {"serve": "web", "replay": "player", "Replayed": "player", "Preload": "preload", "PreloadUnavailableError": "preload"}
 
 
 def __getattr__(name: str) -> object:

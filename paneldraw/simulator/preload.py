@@ -64,17 +64,17 @@ class Preload:
     PreloadUnavailableError
         On entering, where the C library is missing; from `popen` and `run` for a program that it cannot reach.
 
-    Examples
-    --------
-    >>> import sys
-    >>> from paneldraw import simulator
-    >>> from paneldraw.simulator.preload import Preload
-    >>> chip = simulator.SSD1306()
-    >>> script = "import smbus2; smbus2.SMBus(1).write_byte_data(0x3C, 0, 0xAF)"
-    >>> with Preload({1: simulator.I2CBus({0x3C: chip})}) as preload:
-    ...     done = preload.run([sys.executable, "-c", script])
-    >>> done.returncode, chip.registers.on
-    (0, True)
+    Notes
+    -----
+    ::
+
+        chip = simulator.SSD1306()
+        with simulator.Preload({1: simulator.I2CBus({0x3C: chip})}) as preload:
+            preload.run(["i2cset", "-y", "1", "0x3c", "0x00", "0xaf"])
+        assert chip.registers.on
+
+    The program itself is looked at before it is started; one that it starts in turn, and that is linked statically or
+    runs with another user's rights, finds the machine's own devices.
     """
 
     def __init__(

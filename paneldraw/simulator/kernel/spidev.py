@@ -47,7 +47,7 @@ class SPIFile:
     >>> from paneldraw import simulator
     >>> chip = simulator.SSD1306()
     >>> SPIFile(simulator.SPIBus(chip)).write(b"\\x81\\x40"), chip.contrast
-    (2, 127)
+    (2, 64)
     """
 
     def __init__(self, bus: SPIBus) -> None:
