@@ -254,7 +254,11 @@ class SysfsFile:
         self._lines = lines
         directory, _, self._name = path.rpartition("/")
         number = directory.removeprefix("gpio")
-        self._line = lines.exported[int(number)].lines[0] if number.isdecimal() else None
+        self._line: Line | None = None
+        if number.isdecimal():
+            if int(number) not in lines.exported:
+                raise os_error(errno.ENOENT)
+            (self._line,) = lines.exported[int(number)].lines
         self._read = False
 
     def close(self) -> None:

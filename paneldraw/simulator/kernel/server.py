@@ -13,6 +13,7 @@ import selectors
 import socket
 import struct
 import threading
+import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Final, Protocol
@@ -26,6 +27,9 @@ _IOCTL: Final = struct.Struct("=IIQ")
 _MOST: Final = (1 << 20) + (1 << 16)
 """Bytes that may follow: what preload.c lets through at most, and its heads."""
 _ROOM: Final = 1 << 16
+_PAUSE: Final = 0.01
+_PATIENCE: Final = 5.0
+"""Seconds that a call may go on for when the server is closed: a device that never ends it keeps nobody."""
 _MOST_NAME: Final = 4096
 _MOST_CONNECTIONS: Final = 1000
 
@@ -99,7 +103,7 @@ class Server:
         for connection, thread in callers.items():
             with contextlib.suppress(OSError):
                 connection.shutdown(socket.SHUT_RDWR)
-            thread.join()
+            thread.join(_PATIENCE)
         for handle in list(self._devices):
             self._forget(handle)
         self._selector.close()
@@ -115,13 +119,14 @@ class Server:
                     return
                 if key.fileobj is self._listener:
                     self._accept()
-                else:
-                    self._hear(key.data)
+                elif device := self._devices.get(key.data):  # unless a caller's thread has found its end already
+                    self._hear(key.data, device)
 
     def _accept(self) -> None:
         try:
             connection, name = self._listener.accept()
         except OSError:
+            time.sleep(_PAUSE)  # no descriptor is free, perhaps
             return
         if isinstance(name, bytes) and len(name) == 6 and len(self._devices) < _MOST_CONNECTIONS:
             with contextlib.suppress(ValueError):
@@ -132,9 +137,8 @@ class Server:
                 return
         connection.close()
 
-    def _hear(self, handle: int) -> None:
+    def _hear(self, handle: int, device: _Device) -> None:
         """Take the first request of a connection, or what comes later: the end, or text for a line."""
-        device = self._devices[handle]
         if device.name:
             self._take_text(handle, device)
             return
