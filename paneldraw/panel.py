@@ -123,7 +123,8 @@ class Panel:
     updates : str, optional
         How pictures are sent: in the fewest bytes that the datasheet allows, ``"least"`` (default); ``"plain"``, every
         run addressed in full, with nothing assumed of the chip's pointers, for clones that do not keep to the
-        datasheet; or ``"whole"``, every picture that differs as a whole, as plainly.
+        datasheet and for panels that another program writes to as well; or ``"whole"``, every picture that differs as a
+        whole, as plainly.
 
     Attributes
     ----------

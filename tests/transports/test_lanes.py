@@ -11,6 +11,7 @@ from pathlib import Path
 
 import pytest
 import user_mode_linux
+from kernel_answers import rows
 
 from paneldraw.simulator.preload import PreloadUnavailableError, library
 
@@ -30,7 +31,7 @@ def test_through_the_preloaded_library():
         settings = {"I2C_LANE": "preload", "LD_PRELOAD": preloaded, "PANELDRAW_PRELOAD": f"{folder}/served"}
         done = subprocess.run(TESTS, env=os.environ | settings, capture_output=True, text=True)
     assert done.returncode == 0, done.stdout + done.stderr
-    assert passed(done.stdout) > 120
+    assert passed(done.stdout) > len(rows()) + 30
 
 
 @pytest.mark.thorough
@@ -43,4 +44,4 @@ def test_through_a_real_kernel():
     if status is None:
         pytest.skip(f"user-mode Linux does not start here: {output[-300:]}")
     assert status == 0, output
-    assert passed(output) > 120
+    assert passed(output) > len(rows()) + 30
