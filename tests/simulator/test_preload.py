@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import errno
 import os
 import random
@@ -445,7 +446,8 @@ def test_nonsense_on_the_socket_ends_that_connection_alone(desk: Desk) -> None:
                 nobody.bind("")  # a name of the kernel's choice, as preload.c asks for
             nobody.connect(path)
             head = b"".join(chance.choice((0, 4, 12, 500, 1 << 31)).to_bytes(4, "little") for _ in range(3))
-            nobody.sendall(head[: chance.choice((3, 12))] + chance.randbytes(chance.choice((0, 4, 90))))
+            with contextlib.suppress(BrokenPipeError):  # of one without a name the server has heard enough
+                nobody.sendall(head[: chance.choice((3, 12))] + chance.randbytes(chance.choice((0, 4, 90))))
     assert desk.python("import smbus2; print(smbus2.SMBus(1).read_byte(0x3D))")
     deadline = time.monotonic() + 10
     while len(desk.preload._server._devices) and time.monotonic() < deadline:  # type: ignore[union-attr]
