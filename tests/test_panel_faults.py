@@ -130,6 +130,7 @@ FAULTS = {
 LASTING = ("stuck", "short for ever", "a stretch for ever")
 
 
+@pytest.mark.usefixtures("own_time")
 @pytest.mark.parametrize("fault", FAULTS)
 @pytest.mark.parametrize("chip", [SSD1306, SH1106, SSD1327], ids=["ssd1306", "sh1106", "ssd1327"])
 @pytest.mark.parametrize("fresh", [False, True], ids=["the same picture", "a new picture"])
