@@ -16,6 +16,7 @@ import pytest
 
 import paneldraw
 from paneldraw import _compiled
+from paneldraw.simulator import preload
 
 if sys.version_info >= (3, 11):
     import tomllib
@@ -28,6 +29,12 @@ PROJECT = Path(__file__).parent.parent
 
 def test_this_install_is_compiled():
     assert _compiled.COMPILED, "the raster modules are not compiled: install a C compiler, then the package again"
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="for Linux alone")
+def test_this_install_has_the_library_for_other_programs_up_to_date():
+    built, source = preload.library(), PACKAGE / "simulator/preload.c"
+    assert built.stat().st_mtime > source.stat().st_mtime - 60, f"{source} changed: install the package again"
 
 
 @pytest.mark.parametrize("name", _compiled.MODULES)

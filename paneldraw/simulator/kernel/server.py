@@ -7,7 +7,6 @@ many bytes follow, the call's result or the error's number below zero, and those
 from __future__ import annotations
 
 import contextlib
-import enum
 import errno
 import selectors
 import socket
@@ -21,6 +20,8 @@ from typing import Final, Protocol
 from ..wire import os_error
 from .gpio import CLAIMS, GPIOChip, SysfsFile
 
+_OPEN, _OPEN_STREAM, _READ, _WRITE, _DO, _NAME = range(6)
+"""What a program wants, in the order of preload.c's ``operation``."""
 _REQUEST: Final = struct.Struct("=III")
 _REPLY: Final = struct.Struct("=Ii")
 _IOCTL: Final = struct.Struct("=IIQ")
@@ -32,12 +33,6 @@ _PATIENCE: Final = 5.0
 """Seconds that a call may go on for when the server is closed: a device that never ends it keeps nobody."""
 _MOST_NAME: Final = 4096
 _MOST_CONNECTIONS: Final = 1000
-
-
-class Operation(enum.IntEnum):
-    """What a program wants."""
-
-    OPEN, OPEN_STREAM, READ, WRITE, IOCTL, NAME = range(6)
 
 
 class File(Protocol):
@@ -148,7 +143,7 @@ class Server:
             head = b""
         if len(head) < _REQUEST.size:
             self._forget(handle)
-        elif _REQUEST.unpack(head)[2] in (Operation.OPEN, Operation.OPEN_STREAM):
+        elif _REQUEST.unpack(head)[2] in (_OPEN, _OPEN_STREAM):
             self._open(handle, device)
         else:
             self._devices.pop(handle)
@@ -174,10 +169,10 @@ class Server:
                 self._texts += isinstance(device.file, SysfsFile)
             device.name = name
             reply = _REPLY.pack(0, 0)
-            if operation == Operation.OPEN_STREAM and isinstance(device.file, SysfsFile):
+            if operation == _OPEN_STREAM and isinstance(device.file, SysfsFile):
                 reply += device.file.read(_MOST_NAME)
             device.connection.sendall(reply)
-            if operation == Operation.OPEN_STREAM:
+            if operation == _OPEN_STREAM:
                 device.connection.shutdown(socket.SHUT_WR)
         except UnicodeDecodeError:
             self._refuse(handle, device, errno.ENOENT)
@@ -250,18 +245,18 @@ class Server:
         if device is None or device.file is None:
             raise os_error(errno.ENODEV)
         file = device.file
-        if operation == Operation.IOCTL:
+        if operation == _DO:
             request, _, value = _IOCTL.unpack_from(payload)
             argument = payload[_IOCTL.size :]
             if request in CLAIMS and isinstance(file, GPIOChip):
                 return self._claim(file, request, value, argument)
             return file.ioctl(request, value, argument)
-        if operation == Operation.WRITE:
+        if operation == _WRITE:
             return file.write(payload), b""
-        if operation == Operation.READ:
+        if operation == _READ:
             answer = file.read(*struct.unpack("=I", payload))
             return len(answer), answer
-        if operation == Operation.NAME:
+        if operation == _NAME:
             return len(device.name), device.name.encode()
         raise ValueError(f"operation {operation}")
 
