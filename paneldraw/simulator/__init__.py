@@ -76,7 +76,13 @@ __all__ = [
 
 
 #: Names that are imported only where somebody asks for them, with what they need: asyncio, zipfile, subprocess.
-_LATER = {"serve": "web", "replay": "player", "Replayed": "player", "Preload": "preload", "PreloadUnavailableError": "preload"}
+_LATER = {
+    "serve": "web",
+    "replay": "player",
+    "Replayed": "player",
+    "Preload": "preload",
+    "PreloadUnavailableError": "preload",
+}
 
 
 def __getattr__(name: str) -> object:
