@@ -51,7 +51,7 @@ _STUCK = (errno.ETIMEDOUT, errno.EBUSY, errno.EAGAIN)
 class Bus(Protocol):
     """What a device needs of an I²C bus: smbus2's ``i2c_rdwr``."""
 
-    def i2c_rdwr(self, *messages: Any) -> None:
+    def i2c_rdwr(self, *messages: Any) -> object:
         """Carry the messages; raise OSError if nobody acknowledges."""
 
 

@@ -32,11 +32,6 @@ Updates = Literal["least", "plain", "whole"]
 
 _ON_CLOSE: Final = ("keep", "clear", "off")
 _ROTATIONS: Final = (0, 90, 180, 270)
-_WIRING: Final = (
-    *("column_offset", "first_com", "com_pins", "duty"),
-    *("order", "first_block", "block_rotation", "mirror_blocks", "board"),
-)
-"""What a simulated module is wired with, beside a driver that believes it."""
 
 
 class Report(NamedTuple):
@@ -896,17 +891,8 @@ def _simulated(wanted: urls.PanelURL) -> tuple[Transport, Any, Any]:
     """Make a simulated chip, on the first kind of bus that it can sit on; return transport, chip and bus."""
     from paneldraw import simulator  # a script with a real panel does not pay for it
 
-    controller = wanted.controller
-    wiring: dict[str, Any] = {name: wanted.module[name] for name in _WIRING if name in wanted.module}
-    if not wanted.module.get("charge_pump", True):
-        wiring["external_vcc"] = True
-    chip = getattr(simulator, controller.name.upper())(controller.width, controller.height, **wiring)
-    if "i2c" in controller.buses:
-        wires = simulator.I2CBus({wanted.address: chip})
-        return I2CTransport(wires, wanted.address), chip, wires
-    lines: dict[str, Any] = {"dc": None, "reset": None} if controller.registers else {}
-    if controller.synced:
-        lines = {"dc": None}
-    bus = simulator.SPIBus(chip, **lines)
-    bus.spi.cshigh = controller.synced
-    return SPITransport(spi=bus.spi, pins=bus.pins, **lines), chip, bus
+    chip = simulator.simulated_chip(wanted.controller, wanted.module)
+    bus = simulator.simulated_bus(chip, wanted.controller, wanted.address)
+    if isinstance(bus, simulator.I2CBus):
+        return I2CTransport(bus, wanted.address), chip, bus
+    return SPITransport(spi=bus.spi, pins=bus.pins, dc=bus.dc, reset=bus.reset), chip, bus

@@ -13,7 +13,9 @@ from .lcd import PCD8544, ST7565, ST7567, UC1609, UC1701
 from .log import Log
 from .looks import LOOKS, Look, find_look, image
 from .max7219 import MAX7219
+from .port import SerialPort
 from .recorder import contact_sheet, save
+from .rig import Rig, RigPanel, simulated_bus, simulated_chip
 from .sh110x import CH1115, SH1106, SH1107, SH1122
 from .spi import SPIBus
 from .ssd130x import SSD1305, SSD1306, SSD1309, SSD1312, SSD1315, SSD1316
@@ -61,7 +63,10 @@ __all__ = [
     "Preload",
     "PreloadUnavailableError",
     "Replayed",
+    "Rig",
+    "RigPanel",
     "SPIBus",
+    "SerialPort",
     "TerminalView",
     "Transcript",
     "contact_sheet",
@@ -71,6 +76,8 @@ __all__ = [
     "replay",
     "save",
     "serve",
+    "simulated_bus",
+    "simulated_chip",
     "text",
 ]
 

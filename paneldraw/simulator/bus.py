@@ -171,6 +171,8 @@ class I2CBus(Wire):
         Messages (START or repeated START to the next), and calls (START to STOP), failed ones included.
     seconds : float
         Time that the wire was busy at `clock`: 9 bit times a byte, 1 for every START, 1 for every STOP.
+    realtime : bool
+        Whether a call lasts until the wire has carried it, by the host's time. Default: False.
 
     Notes
     -----

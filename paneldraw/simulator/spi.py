@@ -67,6 +67,8 @@ class SPIBus(Wire):
         Chip selects.
     seconds : float
         Time that the wire was busy: 8 bit times a byte.
+    realtime : bool
+        As of `I2CBus`.
 
     Raises
     ------

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import threading
+import time
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import ClassVar, Final
@@ -52,6 +53,7 @@ class Wire:
         self.bytes = 0
         self.messages = 0
         self.seconds = 0.0
+        self.realtime = False
         self._timer = timer
         self._started = timer() if timer else 0.0
         self._now = 0.0
@@ -76,7 +78,10 @@ class Wire:
         self.seconds += busy
         self._now += busy
         if self._timer:
-            self._now = max(self._now, self._timer() - self._started)
+            passed = self._timer() - self._started
+            if self.realtime and self._now > passed:
+                time.sleep(self._now - passed)
+            self._now = max(self._now, passed)
         return self._now
 
     def _pass_time(self) -> None:
