@@ -13,7 +13,7 @@ import textwrap
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from types import FrameType
-from typing import TYPE_CHECKING, NoReturn
+from typing import TYPE_CHECKING, Any, NoReturn
 
 from paneldraw.errors import PanelError
 
@@ -102,6 +102,18 @@ def _one_line(error: BaseException) -> str:
 
 
 class _Parser(argparse.ArgumentParser):
+    """Reads arguments; those behind a first word that `actions` has are another parser's."""
+
+    def __init__(self, *args: Any, **options: Any) -> None:
+        super().__init__(*args, **options)
+        self.actions: dict[str, _Parser] = {}
+
+    def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:
+        """Read the arguments that are known."""
+        if args and args[0] in self.actions:
+            return self.actions[args[0]].parse_known_args(args[1:], namespace)
+        return super().parse_known_args(args, namespace)
+
     def error(self, message: str) -> NoReturn:
         """Say what is wrong in one line, and where help is."""
         self.exit(2, f"{self.prog}: {' '.join(message.split())}; see {self.prog} --help\n")
@@ -113,7 +125,7 @@ def _parser() -> argparse.ArgumentParser:
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
     for add in (
         *(_add_demo, _add_show, _add_text, _add_clear, _add_off, _add_panels, _add_detect, _add_check, _add_info),
-        *(_add_bench, _add_firmware, _add_replay, _add_view),
+        *(_add_bench, _add_firmware, _add_sim, _add_view, _add_replay),
     ):
         add(commands)
     return parser
@@ -466,3 +478,9 @@ def _add_view(commands: _Commands) -> None:
     from paneldraw.cli import view
 
     view.add(commands)
+
+
+def _add_sim(commands: _Commands) -> None:
+    from paneldraw.cli import sim
+
+    sim.add(commands)

@@ -63,6 +63,8 @@ class Chip(ABC):
         bytes that broke it first. Clear it as you like.
     remarks : list of str
         What is merely not in the sheet, or a relative's command that the chip lets pass, in the same way.
+    wire_bytes : int
+        Bytes on the wire that were for the chip, address bytes included.
     registers : Registers
         All other state, by name.
     hold : callable or None
@@ -95,7 +97,7 @@ class Chip(ABC):
         self.remarks: list[str] = []
         self._random = random.Random(seed)
         self._seen: Picture = np.zeros((height, width), np.uint8)
-        self._unframed_bytes = 0
+        self.wire_bytes = self._unframed_bytes = 0
         self._progress = Progress(cells)
         self._last: tuple[Frame | None, int] = (None, 0)
         self._growing: tuple[float, int, int] | None = None
@@ -160,6 +162,7 @@ class Chip(ABC):
         """
         if self.listener:
             self.listener.settled(seconds)
+        self.wire_bytes += wire_bytes
         self._unframed_bytes += wire_bytes
         progress = self._progress
         drew = progress.end_call(seconds, self._unfilled)
