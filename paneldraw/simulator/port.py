@@ -83,7 +83,7 @@ class SerialPort:
         self._plug: int | None = None  # closed, it ends the thread
         self._thread: threading.Thread | None = None
         self._lock = threading.Lock()
-        self._folder: str | None = tempfile.mkdtemp(prefix="paneldraw-")
+        self._folder: str | None = tempfile.mkdtemp(prefix=f"paneldraw-{os.getpid()}-")
         self.path = os.path.join(self._folder, name)
         try:
             self.plug()
