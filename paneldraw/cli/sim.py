@@ -11,6 +11,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Iterator, Sequence
+from functools import partial
 from pathlib import Path
 from types import FrameType
 from typing import TYPE_CHECKING, Any, Final
@@ -96,12 +97,14 @@ def _mishap(text: str) -> Mishap:
 @contextlib.contextmanager
 def _panels(options: argparse.Namespace) -> Iterator[Rig]:
     """Set up what was asked for; on leaving, whatever happened, write what is to be saved and unplug everything."""
-    if options.save:
-        _check_writable(options.save)
+    from paneldraw.simulator.looks import find_look
+
+    find_look(options.look)
     with contextlib.ExitStack() as stack:
         rig = stack.enter_context(_rig(options))
         if options.save:
-            stack.callback(_save, rig.panels, options.save, options.look)
+            _check_writable(options.save)
+            stack.push(partial(_save_unless_failed, rig.panels, options))
         for mishap in options.fail:
             mishap.strike(rig.panels, options.seed)
         if options.transcript:
@@ -112,12 +115,14 @@ def _panels(options: argparse.Namespace) -> Iterator[Rig]:
 def _rig(options: argparse.Namespace) -> Rig:
     from paneldraw.simulator.rig import Rig
 
-    settings: dict[str, Any] = {"realtime": options.realtime}
-    if options.save:
-        settings["history"] = _HISTORY
     given = list(options.panel)
     if not given and not options.file:
         given = [os.environ.get("PANELDRAW_PANEL") or "sim://ssd1306"]
+    for url in given:
+        _heed(options, url)
+    settings: dict[str, Any] = {"realtime": options.realtime}
+    if options.save:
+        settings["history"] = _HISTORY
     rig = Rig.from_file(options.file, **settings) if options.file else Rig(**settings)
     try:
         for url in given:
@@ -128,11 +133,28 @@ def _rig(options: argparse.Namespace) -> Rig:
     return rig
 
 
+def _heed(options: argparse.Namespace, url: str) -> None:
+    """Do what a panel's URL asks for where the command does not: a view, a recording, real time."""
+    from paneldraw import urls
+
+    watch = urls.parse(url).watch
+    options.view = options.view or next(iter(watch.views), None)
+    options.save = options.save or (Path(watch.save) if watch.save else None)
+    options.realtime = options.realtime or watch.realtime
+
+
 def _check_writable(path: Path) -> None:
     if not path.parent.is_dir():
         raise ValueError(f"there is no folder {path.parent}; make it first")
     if path.is_dir() or not os.access(path if path.exists() else path.parent, os.W_OK):
         raise ValueError(f"{path} cannot be written; check its permissions")
+
+
+def _save_unless_failed(
+    panels: Sequence[RigPanel], options: argparse.Namespace, kind: object, error: BaseException | None, trace: object
+) -> None:
+    if not isinstance(error, Exception):  # a signal is none
+        _save(panels, options.save, options.look)
 
 
 def _save(panels: Sequence[RigPanel], path: Path, look: str | None) -> None:
@@ -174,7 +196,7 @@ def _say(line: str) -> None:
 
 
 @contextlib.contextmanager
-def _view(kind: str | None, panels: Sequence[RigPanel], look: str | None) -> Iterator[None]:
+def _view(kind: Any, panels: Sequence[RigPanel], look: str | None) -> Iterator[None]:
     if kind is None:
         yield
         return
@@ -232,33 +254,44 @@ def _environment(preload: Preload, panels: Sequence[RigPanel]) -> dict[str, str]
 # sim run
 
 
+class _NotStartedError(Exception):
+    """The program cannot be run; the code is the one that shells have for that."""
+
+    def __init__(self, code: int, message: str) -> None:
+        super().__init__(message)
+        self.code = code
+
+
 def _run(options: argparse.Namespace) -> int:
     command = options.command[options.command[0] == "--" :]
     if not command:
         raise ValueError("say which program to run: paneldraw sim run [options] -- COMMAND")
-    with _panels(options) as rig:
-        with rig.preload() as preload, _view(options.view, rig.panels, options.look), _Relay() as relay:
-            code = _started(preload, command, rig.panels, relay)
-        if not options.quiet:
-            _sum_up(rig.panels, options.fail)
-    return code
-
-
-def _started(preload: Preload, command: list[str], panels: Sequence[RigPanel], relay: _Relay) -> int:
-    """Run a program to its end; return its exit code as shells give it."""
-    environment = {**os.environ, "PANELDRAW_PANEL": panels[0].url}
     try:
-        process = preload.popen(command, env=environment)
+        with _panels(options) as rig:
+            with rig.preload() as preload, _view(options.view, rig.panels, options.look), _Relay() as relay:
+                code = relay.wait(_started(preload, command, rig.panels))
+            if code < 0 and -code not in relay.passed:
+                _say_how_it_ended(command[0], -code)
+            if not options.quiet:
+                _sum_up(rig.panels, options.fail)
+    except _NotStartedError as error:
+        _say(str(error))
+        return error.code
+    return code if code >= 0 else 128 - code
+
+
+def _started(preload: Preload, command: list[str], panels: Sequence[RigPanel]) -> subprocess.Popen[Any]:
+    from paneldraw.simulator.preload import PreloadUnavailableError
+
+    try:
+        return preload.popen(command, env={**os.environ, "PANELDRAW_PANEL": panels[0].url})
+    except PreloadUnavailableError as error:
+        raise _NotStartedError(_NOT_RUN, error.strerror or str(error)) from error
     except OSError as error:
         if error.filename != command[0]:
             raise
-        found = not isinstance(error, FileNotFoundError)
-        _say(_no_command(command[0], error))
-        return _NOT_RUN if found else _NOT_FOUND
-    code = relay.wait(process)
-    if code < 0 and -code not in relay.passed:
-        _say_how_it_ended(command[0], -code)
-    return code if code >= 0 else 128 - code
+        missing = isinstance(error, FileNotFoundError)
+        raise _NotStartedError(_NOT_FOUND if missing else _NOT_RUN, _no_command(command[0], error)) from error
 
 
 def _no_command(name: str, error: OSError) -> str:

@@ -6,11 +6,11 @@ import contextlib
 import importlib
 import os
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import TYPE_CHECKING, Any, Final, TypeVar, cast
-from urllib.parse import parse_qsl, urlencode, urlsplit
+from urllib.parse import parse_qsl, urlencode
 
 from paneldraw import urls
 from paneldraw.controllers import CHIPS, Controller
@@ -19,6 +19,8 @@ from paneldraw.transports import I2CTransport
 
 from .bus import I2CBus, Multiplexer
 from .chip import Chip
+from .kernel.gpio import LINES
+from .looks import find_look
 from .port import SerialPort
 from .spi import SPIBus
 
@@ -34,13 +36,13 @@ _WIRING: Final = (
     *("order", "first_block", "block_rotation", "mirror_blocks", "board"),
 )
 """What a simulated module is wired with, beside a driver that believes it."""
-_LINES: Final = 28
-"""Lines of a Raspberry Pi's header, GPIO0 to GPIO27."""
 _CLOCK: Final = 400_000
 _TABLES: Final = ("panel", "i2c")
 _OF_A_BUS: Final = ("clock",)
 _EXAMPLE: Final = "i2c://1/0x3c?chip=ssd1306"
 _OTHER_PLACE: Final = "give one of the two another address, or put it behind a multiplexer, as in i2c://1/0x70:3/0x3c"
+_WATCHED: Final = ("view", "save", "look", "listen", "realtime")
+"""Parameters by which a script watches its own panel: in a rig, whoever has the rig watches."""
 _FIRMWARE: Final = "paneldraw simulated"
 _DATA: Final = 0x40
 """The control byte that says that data follows."""
@@ -184,6 +186,7 @@ class Rig:
         self.serial: dict[str, str] = {}
         self._realtime = realtime
         self._history = history
+        self._resets: list[tuple[int, Any]] = []  # lines that I2C modules have their reset pins on
         try:
             for url in urls:
                 self.add(url)
@@ -230,13 +233,12 @@ class Rig:
             How viewers show it. Default: as its chip looks.
         """
         wanted = urls.parse(url)
+        look = look or wanted.watch.look
+        find_look(look)
         if isinstance(wanted, urls.PanelURL) and wanted.scheme == "sim":
             url = _usual_place(url, wanted.controller)
-            wanted = urls.parse(url)
-        if look is not None:
-            from .looks import find_look
-
-            find_look(look)
+        url = _without(url, _WATCHED)
+        wanted = urls.parse(url)
         if name is not None and any(panel.name == name for panel in self.panels):
             raise ValueError(f"name must be one that no other panel has, not {name!r}")
         module = _behind(wanted) if isinstance(wanted, urls.SerialURL) else wanted
@@ -263,7 +265,10 @@ class Rig:
         """
         from .preload import Preload
 
-        return Preload(self.i2c, self.spi, self.serial)
+        preload = Preload(self.i2c, self.spi, self.serial)
+        for line, chip in self._resets:
+            preload.gpio.lines[line].wires.append(partial(_drive_reset, chip))
+        return preload
 
     def close(self) -> None:
         """Unplug the serial ports; the chips keep their state. Closing twice does nothing."""
@@ -299,11 +304,14 @@ class Rig:
         devices = {wanted.address: chip}
         if "data_address" in settings:
             devices[settings["data_address"]] = chip.data
+        reset = _line(wanted.transport, "reset", None)
         try:
             _put(bus, devices, settings.get("mux"))
         except ValueError as error:
             raise ValueError(f"bus {number}: {error}") from None
         self.i2c[number] = bus
+        if reset is not None:
+            self._resets.append((reset, chip))
         return bus
 
     def _on_spi(self, wanted: urls.PanelURL, chip: Any) -> SPIBus:
@@ -356,7 +364,16 @@ class Rig:
 def _usual_place(url: str, controller: Controller) -> str:
     """Turn the URL of a simulated panel into that of the place where such a panel usually is."""
     place = f"i2c://1/{CHIPS[controller.name].address:#x}" if "i2c" in controller.buses else "spi://0.0"
-    return f"{place}?{_query({'chip': controller.name, **dict(parse_qsl(urlsplit(url).query))})}"
+    return f"{place}?{_query({'chip': controller.name, **dict(parse_qsl(url.partition('?')[2]))})}"
+
+
+def _without(url: str, names: Collection[str]) -> str:
+    """Take parameters out of a URL."""
+    place, mark, query = url.partition("?")
+    if not mark:
+        return url
+    kept = {name: text for name, text in parse_qsl(query, keep_blank_values=True) if name not in names}
+    return f"{place}?{_query(kept)}" if kept else place
 
 
 def _behind(wanted: urls.SerialURL) -> urls.PanelURL:
@@ -397,14 +414,19 @@ def _multiplexer(bus: I2CBus, address: int) -> Multiplexer:
     return device
 
 
-def _line(transport: Mapping[str, Any], name: str, usual: int) -> int | None:
+def _drive_reset(chip: Any, high: bool) -> None:
+    if not high:
+        chip.reset()
+
+
+def _line(transport: Mapping[str, Any], name: str, usual: int | None) -> int | None:
     """The number of a GPIO line that a URL names."""
     line = transport.get(name, usual)
     if line is None:
         return None
     found = re.fullmatch(r"(?:GPIO)?(\d+)", str(line))
-    if not found or int(found[1]) >= _LINES:
-        raise ValueError(f"{name} must be a line of a Raspberry Pi's header, 0 to {_LINES - 1}, not {line!r}")
+    if not found or int(found[1]) >= LINES:
+        raise ValueError(f"{name} must be a line of a Raspberry Pi's chip, 0 to {LINES - 1}, not {line!r}")
     return int(found[1])
 
 
