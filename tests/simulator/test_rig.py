@@ -402,3 +402,165 @@ def test_the_buses_are_those_that_urls_say():
     with Rig(["i2c://0/0x3c", "spi://1.2?chip=max7219"]) as rig:
         assert isinstance(rig.i2c[0], I2CBus)
         assert isinstance(rig.spi[1, 2], SPIBus)
+
+
+# -- Programs of others
+
+
+def unavailable():
+    try:
+        with Rig().preload():
+            return ""
+    except OSError as error:
+        return str(error)
+
+
+needs_buses = pytest.mark.skipif(bool(unavailable()), reason=f"simulated buses for programs: {unavailable()}")
+
+SMBUS2 = """
+from smbus2 import SMBus, i2c_msg
+with SMBus(1) as bus:
+    bus.write_i2c_block_data(0x3C, 0x00, [0x8D, 0x14, 0xA1, 0xC8, 0x20, 0x00, 0x21, 0, 127, 0x22, 0, 7])
+    bus.i2c_rdwr(i2c_msg.write(0x3C, [0x40] + [0xFF] * 512 + [0x00] * 512), i2c_msg.write(0x3C, [0x00, 0xAF]))
+    print(bus.read_byte(0x3C) & 0x40)
+"""
+LUMA = """
+from luma.core.interface.serial import i2c
+from luma.core.render import canvas
+from luma.oled.device import ssd1306
+
+device = ssd1306(i2c(port=1, address=0x3C))
+device.persist = True
+with canvas(device) as draw:
+    draw.rectangle(device.bounding_box, outline="white", fill="black")
+    draw.text((30, 40), "Hello World", fill="white")
+"""
+LUMA_MATRIX = """
+from luma.core.interface.serial import noop, spi
+from luma.core.render import canvas
+from luma.led_matrix.device import max7219
+
+device = max7219(spi(port=0, device=0, gpio=noop()), cascaded=4)
+device.persist = True
+with canvas(device) as draw:
+    draw.rectangle(device.bounding_box, outline="white", fill="black")
+"""
+SPIDEV = """
+import gpiod, spidev
+from gpiod.line import Direction, Value
+
+lines = gpiod.request_lines("/dev/gpiochip0", {24: gpiod.LineSettings(direction=Direction.OUTPUT)})
+bus = spidev.SpiDev()
+bus.open(0, 0)
+bus.max_speed_hz = 8_000_000
+lines.set_value(24, Value.INACTIVE)
+bus.writebytes([0x8D, 0x14, 0xA5, 0xAF])
+"""
+RESET = """
+import gpiod
+from gpiod.line import Direction, Value
+
+with gpiod.request_lines("/dev/gpiochip0", {4: gpiod.LineSettings(direction=Direction.OUTPUT)}) as lines:
+    lines.set_value(4, Value.INACTIVE)
+"""
+ADAFRUIT = """
+import board, busio
+from adafruit_ssd1306 import SSD1306_I2C
+
+oled = SSD1306_I2C(128, 64, busio.I2C(board.SCL, board.SDA))
+oled.fill(0)
+oled.rect(0, 0, 128, 64, 1)
+oled.show()
+"""
+BLINKA = {"BLINKA_FORCEBOARD": "RASPBERRY_PI_4B", "BLINKA_FORCECHIP": "BCM2XXX"}
+
+
+def frame_of(width, height):
+    fb = Framebuffer(width, height)
+    fb.rect(0, 0, width, height)
+    return fb.pixels
+
+
+def top_half():
+    fb = Framebuffer(128, 64)
+    fb.rect(0, 0, 128, 32, fill=True)
+    return fb.pixels
+
+
+def ran(rig, script, **environment):
+    """Run a script in Python with a rig's panels; return what it printed."""
+    with rig.preload() as preload:
+        done = preload.run(
+            [sys.executable, "-c", script],
+            env={**os.environ, **environment},
+            capture_output=True,
+            text=True,
+            timeout=120,
+        )
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
+@needs_buses
+@pytest.mark.parametrize(
+    ("url", "script", "package", "picture"),
+    [
+        ("i2c://1/0x3c", SMBUS2, "smbus2", top_half()),
+        ("i2c://1/0x3c", ADAFRUIT, "adafruit_ssd1306", frame_of(128, 64)),
+        (
+            "spi://0.0?chip=max7219&first_block=top-left&block_rotation=270",
+            LUMA_MATRIX,
+            "luma.led_matrix",
+            frame_of(32, 8),
+        ),
+        ("spi://0.0?chip=ssd1306&dc=24&reset=none", SPIDEV, "spidev", np.ones((64, 128), np.uint8)),
+    ],
+)
+def test_programs_of_others_run_unchanged(url, script, package, picture):
+    pytest.importorskip(package)
+    with Rig([url]) as rig:
+        ran(rig, script, **BLINKA)
+        [panel] = rig.panels
+        assert np.array_equal(panel.chip.pixels, picture)
+        assert panel.chip.violations == []
+
+
+@needs_buses
+def test_an_example_of_luma_shows_its_picture():
+    pytest.importorskip("luma.oled")
+    from luma.core.device import dummy
+    from luma.core.render import canvas
+
+    with Rig(["i2c://1/0x3c"]) as rig:
+        ran(rig, LUMA)
+    device = dummy(width=128, height=64, mode="1")
+    with canvas(device) as draw:
+        draw.rectangle(device.bounding_box, outline="white", fill="black")
+        draw.text((30, 40), "Hello World", fill="white")
+    assert np.array_equal(rig.panels[0].chip.pixels, np.asarray(device.image))
+    assert rig.panels[0].chip.violations == []
+
+
+@needs_buses
+def test_a_program_finds_several_panels_of_one_bus_and_one_behind_a_multiplexer():
+    urls = ["i2c://1/0x3c", "i2c://1/0x3d?chip=sh1106", "i2c://1/0x70:3/0x3e?size=128x32", "serial:///dev/ttyACM0"]
+    script = """
+from paneldraw import open_panel
+
+for url in URLS:
+    with open_panel(url) as panel, panel.frame() as fb:
+        fb.rect(0, 0, fb.width, fb.height)
+"""
+    with Rig(urls) as rig:
+        ran(rig, script.replace("URLS", repr(urls)))
+        for panel in rig.panels:
+            assert np.array_equal(panel.chip.pixels, frame_of(panel.chip.width, panel.chip.height)), panel.name
+
+
+@needs_buses
+def test_a_reset_line_resets_the_module_on_i2c():
+    with Rig(["i2c://1/0x3c?reset=4"]) as rig:
+        rig.i2c[1].write_i2c_block_data(0x3C, 0, [0xAF])
+        assert rig.panels[0].chip.registers.on
+        ran(rig, RESET)
+        assert not rig.panels[0].chip.registers.on
