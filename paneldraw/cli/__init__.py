@@ -483,4 +483,4 @@ def _add_view(commands: _Commands) -> None:
 def _add_sim(commands: _Commands) -> None:
     from paneldraw.cli import sim
 
-    sim.add(commands)
+    sim.add(commands, _save_path)

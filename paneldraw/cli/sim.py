@@ -10,7 +10,7 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from pathlib import Path
 from types import FrameType
@@ -23,7 +23,6 @@ if TYPE_CHECKING:
 
 _HISTORY: Final = 10_000
 """Frames that a recording holds."""
-_SAVED: Final = (".gif", ".png", ".apng")
 _ABOUT: Final = "start simulated panels and show them until Ctrl-C; `paneldraw sim run` runs a program with them"
 _ABOUT_RUN: Final = "run a program with simulated panels in place of /dev/i2c-N, /dev/spidevB.D and serial ports"
 _CRASHES: Final = ("SIGSEGV", "SIGBUS", "SIGABRT", "SIGILL", "SIGFPE")
@@ -34,22 +33,22 @@ _NOT_FOUND: Final = 127
 _NOT_RUN: Final = 126
 
 
-def add(commands: Any) -> None:
-    """Add the command to a parser's."""
+def add(commands: Any, save_path: Callable[[str], Path]) -> None:
+    """Add the command to a parser's; ``save_path`` reads the name of a recording."""
     parser = commands.add_parser("sim", help=_ABOUT, description=_ABOUT)
     parser.add_argument("file", nargs="?", metavar="FILE.toml", help="panels, each a table [panel.NAME] with its url")
-    _add_options(parser)
+    _add_options(parser, save_path)
     parser.set_defaults(run=_sim)
     run = type(parser)(prog="paneldraw sim run", description=_ABOUT_RUN)
     run.add_argument("--file", metavar="FILE.toml", help="panels, each a table [panel.NAME] with its url")
-    _add_options(run)
+    _add_options(run, save_path)
     run.add_argument("--quiet", action="store_true", help="print no summary at the end")
     run.add_argument("command", nargs=argparse.PARSER, metavar="-- COMMAND", help="the program and its arguments")
     run.set_defaults(run=_run)
     parser.actions["run"] = run
 
 
-def _add_options(parser: argparse.ArgumentParser) -> None:
+def _add_options(parser: argparse.ArgumentParser, save_path: Callable[[str], Path]) -> None:
     parser.add_argument(
         "--panel",
         action="append",
@@ -58,7 +57,8 @@ def _add_options(parser: argparse.ArgumentParser) -> None:
         help="such as i2c://1/0x3c?chip=ssd1306; may be given several times; default: $PANELDRAW_PANEL, else that one",
     )
     parser.add_argument("--view", choices=["terminal", "web", "browser"], help="show the panels live")
-    parser.add_argument("--save", type=_save_path, metavar="FILE", help="write a .gif, .apng or .png at the end")
+    parser.add_argument("--save", type=save_path, metavar="FILE", help="write a .gif, .apng or .png at the end")
+    parser.add_argument("--log", type=Path, metavar="FILE", help="write down the bytes, for `paneldraw replay`")
     parser.add_argument("--look", metavar="NAME", help="how the glass looks, such as blue; default: as the chip's")
     parser.add_argument("--realtime", action="store_true", help="let bytes take as long as on a real wire")
     parser.add_argument(
@@ -73,13 +73,6 @@ def _add_options(parser: argparse.ArgumentParser) -> None:
         help="such as nack:1%%; of messages: nack, timeout, busy, short, power; of bytes on serial lines: flip, drop",
     )
     parser.add_argument("--seed", type=int, default=0, metavar="N", help="other faults for another number (0)")
-
-
-def _save_path(text: str) -> Path:
-    path = Path(text)
-    if path.suffix.lower() not in _SAVED:
-        raise argparse.ArgumentTypeError(f"{text} ends neither in .gif nor in .apng or .png")
-    return path
 
 
 def _mishap(text: str) -> Mishap:
@@ -107,8 +100,6 @@ def _panels(options: argparse.Namespace) -> Iterator[Rig]:
             stack.push(partial(_save_unless_failed, rig.panels, options))
         for mishap in options.fail:
             mishap.strike(rig.panels, options.seed)
-        if options.transcript:
-            _write_down(rig.panels, stack)
         yield rig
 
 
@@ -163,7 +154,7 @@ def _save(panels: Sequence[RigPanel], path: Path, look: str | None) -> None:
     from paneldraw.simulator import save
 
     for panel in panels:
-        own = path if len(panels) == 1 else path.with_name(f"{path.stem}-{_slug(panel.name)}{path.suffix}")
+        own = _own(path, panel.name, len(panels))
         frames = list(panel.chip.frames)
         if not frames:
             _say(f"{panel.name} showed nothing, so there is no {own}")
@@ -175,16 +166,12 @@ def _save(panels: Sequence[RigPanel], path: Path, look: str | None) -> None:
         _say(f"wrote {own}")
 
 
-def _slug(name: str) -> str:
-    return "".join(char if char.isalnum() or char in "-_." else "-" for char in name)
-
-
-def _write_down(panels: Sequence[RigPanel], stack: contextlib.ExitStack) -> None:
-    from paneldraw.simulator.transcript import Transcript
-
-    for panel in panels:
-        name = panel.name if len(panels) > 1 else ""
-        stack.enter_context(Transcript(panel.chip, _to_stderr, name))
+def _own(path: Path, name: str, count: int) -> Path:
+    """The file of one of several panels."""
+    if count == 1:
+        return path
+    plain = "".join(char if char.isalnum() or char in "-_." else "-" for char in name)
+    return path.with_name(f"{path.stem}-{plain}{path.suffix}")
 
 
 def _to_stderr(line: str) -> None:
@@ -196,22 +183,35 @@ def _say(line: str) -> None:
 
 
 @contextlib.contextmanager
-def _view(kind: Any, panels: Sequence[RigPanel], look: str | None) -> Iterator[None]:
-    if kind is None:
+def _watched(options: argparse.Namespace, panels: Sequence[RigPanel], view: Any) -> Iterator[None]:
+    """Show the panels and write down what they make of what they are sent, as far as that was asked for."""
+    from paneldraw.simulator.log import Log
+    from paneldraw.simulator.transcript import Transcript
+
+    with contextlib.ExitStack() as stack:
+        if options.log:
+            buses = {panel.bus: panel.name for panel in reversed(panels)}
+            for bus, name in buses.items():
+                stack.enter_context(Log(bus, _own(options.log, name, len(buses))))
+        if options.transcript:
+            for panel in panels:
+                stack.enter_context(Transcript(panel.chip, _to_stderr, panel.name if len(panels) > 1 else ""))
+        if view is not None:
+            _show(stack, panels, view, options.look)
         yield
-        return
+
+
+def _show(stack: contextlib.ExitStack, panels: Sequence[RigPanel], kind: Any, look: str | None) -> None:
     from paneldraw.simulator.views import open_view
 
     try:
-        view = open_view(kind, ())
+        view = stack.enter_context(open_view(kind, ()))
     except ImportError as error:
         raise ValueError(f'a page needs aiohttp: pip install "paneldraw[web]" ({error})') from None
-    with view:
-        for panel in panels:
-            view.add(panel.chip, panel.name, look or panel.look)
-        if view.url:
-            _say(f"watch at {view.url}")
-        yield
+    for panel in panels:
+        view.add(panel.chip, panel.name, look or panel.look)
+    if view.url:
+        _say(f"watch at {view.url}")
 
 
 # sim
@@ -222,7 +222,7 @@ def _sim(options: argparse.Namespace) -> int:
     with _panels(options) as rig, contextlib.ExitStack() as stack:
         for line in _places(rig, stack):
             print(line, flush=True)
-        stack.enter_context(_view(kind, rig.panels, options.look))
+        stack.enter_context(_watched(options, rig.panels, kind))
         while True:  # a signal unwinds
             time.sleep(3600)
 
@@ -268,7 +268,7 @@ def _run(options: argparse.Namespace) -> int:
         raise ValueError("say which program to run: paneldraw sim run [options] -- COMMAND")
     try:
         with _panels(options) as rig:
-            with rig.preload() as preload, _view(options.view, rig.panels, options.look), _Relay() as relay:
+            with rig.preload() as preload, _watched(options, rig.panels, options.view), _Relay() as relay:
                 code = relay.wait(_started(preload, command, rig.panels))
             if code < 0 and -code not in relay.passed:
                 _say_how_it_ended(command[0], -code)

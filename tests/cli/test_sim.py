@@ -16,7 +16,7 @@ import time
 import numpy as np
 import pytest
 from PIL import Image
-from running import ENVIRONMENT, UTF_8
+from running import ENVIRONMENT, UTF_8, forked, started
 
 from paneldraw import open_panel
 from paneldraw.cli import sim
@@ -58,9 +58,9 @@ def environment(**more):
 
 
 def simulated(*arguments, **more):
-    """Run ``paneldraw sim`` to its end."""
-    command = [*PANELDRAW, "sim", *map(str, arguments)]
-    return subprocess.run(command, capture_output=True, encoding="utf-8", env=environment(**more), timeout=120)
+    """Run ``paneldraw sim`` to its end, in a copy of this process where that can be."""
+    start = forked if sys.platform == "linux" else started
+    return start("sim", *arguments, TMPDIR=os.environ["TMPDIR"], **more)
 
 
 def python(code):
@@ -196,6 +196,16 @@ def test_a_picture_is_the_last_that_shone(folder):
     assert "2 frames" in done.stderr
     with Image.open(folder / "out.png") as picture:
         assert np.asarray(picture.convert("L")).max() > 200
+
+
+@needs_buses
+def test_a_log_can_be_replayed(folder):
+    panels = [*ON_1, "--panel", "i2c://1/0x3d", "--panel", "i2c://2/0x3c?chip=sh1106"]
+    done = simulated("run", "--quiet", *panels, "--log", "wire.log", *python(LIGHT))
+    assert (done.returncode, done.stderr) == (0, "")
+    assert sorted(path.name for path in folder.iterdir()) == ["wire-sh1106.log", "wire-ssd1306.log"]
+    log = (folder / "wire-ssd1306.log").read_text().splitlines()
+    assert [line.split()[1:] for line in log[1:]] == [["3c", "w", "ack", "008d14a5af"]]
 
 
 @needs_buses
@@ -436,7 +446,7 @@ def test_buses_that_no_program_can_reach_say_why(monkeypatch, capsys):
         (["run", "--fail", "nack:200%", "--", "true"], 2, "above 0% and up to 100%"),
         (["run", "--fail", "flip:1%", *ON_1, "--", "true"], 1, "flip strikes no panel here: a bit of a byte"),
         (["run", "--look", "blu", "--", "true"], 1, "did you mean blue?"),
-        (["run", "--save", "out.gif.txt", "--", "true"], 2, "ends neither in .gif nor in .apng or .png"),
+        (["run", "--save", "out.gif.txt", "--", "true"], 2, "ends in none of .gif, .apng, .png"),
         (["run", "--save", "nowhere/out.gif", "--", "true"], 1, "there is no folder nowhere; make it first"),
         (["run", "--panel", "i2c://1/0x3c?chip=sh110", "--", "true"], 1, "did you mean sh1107?"),
         (["run", "--file", "rig.toml", "--", "true"], 1, "there is no file rig.toml; check the path"),
