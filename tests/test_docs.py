@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import itertools
 import math
+import os
 import random
 import re
 import subprocess
 import sys
+from collections import Counter
 from pathlib import Path
 
 import figures
@@ -330,3 +332,35 @@ def test_the_plain_loops_run_on_their_own():
     out = subprocess.run(script, check=True, capture_output=True, text=True).stdout
     assert out.count("\n") == 7 * 11
     assert out.startswith("DDA\n  ................\n  ..@.............\n  ...@@...........\n")
+
+
+# -- Programs on simulated panels
+
+
+SIMULATOR = (DOCS / "simulator.md").read_text(encoding="utf-8")
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="programs find simulated buses on Linux alone")
+def test_the_page_on_the_simulator_runs_and_prints_what_it_says(tmp_path):
+    blocks = re.findall(r"^```(\w+)\n(.*?)^```$", SIMULATOR, re.M | re.S)
+    assert Counter(kind for kind, _ in blocks) == {"python": 2, "sh": 5, "text": 5, "toml": 1}
+    (tmp_path / "hello.py").write_text(blocks[0][1])
+    (tmp_path / "rig.toml").write_text(next(text for kind, text in blocks if kind == "toml"))
+    paneldraw = tmp_path / "bin" / "paneldraw"
+    paneldraw.parent.mkdir()
+    paneldraw.write_text(f'#!/bin/sh\nexec {sys.executable} -m paneldraw "$@"\n')
+    paneldraw.chmod(0o755)
+    path = f"{paneldraw.parent}:{Path(sys.executable).parent}:{os.environ['PATH']}"
+    environment = {name: text for name, text in os.environ.items() if name != "PANELDRAW_PANEL"} | {"PATH": path}
+    for (kind, command), (_, printed) in itertools.pairwise(blocks):
+        if kind == "sh":
+            options = {"cwd": tmp_path, "env": environment, "stderr": subprocess.STDOUT, "text": True, "timeout": 120}
+            done = subprocess.run(["bash", "-c", command], stdout=subprocess.PIPE, **options)
+            assert without_times(done.stdout) == without_times(printed)
+    with Image.open(tmp_path / "hello.png") as picture:
+        assert np.asarray(picture.convert("L")).max() > 200
+    exec(blocks[-1][1], {})
+
+
+def without_times(text):
+    return re.sub(r"^ +\d+\.\d{6}", "  (seconds)", text, flags=re.M)
