@@ -9,6 +9,7 @@ import shutil
 import tempfile
 import threading
 import time
+import weakref
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Final
 
@@ -83,8 +84,9 @@ class SerialPort:
         self._plug: int | None = None  # closed, it ends the thread
         self._thread: threading.Thread | None = None
         self._lock = threading.Lock()
-        self._folder: str | None = tempfile.mkdtemp(prefix=f"paneldraw-{os.getpid()}-")
-        self.path = os.path.join(self._folder, name)
+        folder = tempfile.mkdtemp(prefix=f"paneldraw-{os.getpid()}-")
+        self._tidy = weakref.finalize(self, _remove, folder, os.getpid())  # at the end of the script, if not before
+        self.path = os.path.join(folder, name)
         try:
             self.plug()
         except BaseException:
@@ -103,7 +105,7 @@ class SerialPort:
         with self._lock:
             if self._plug is not None:
                 return
-            if self._folder is None:
+            if not self._tidy.alive:
                 raise ValueError("the port is closed: make a new one")
             if self._thread is not None:
                 self._power()
@@ -129,9 +131,7 @@ class SerialPort:
     def close(self) -> None:
         """Unplug the board for good. Closing twice does nothing."""
         self.unplug()
-        folder, self._folder = self._folder, None
-        if folder is not None:
-            shutil.rmtree(folder, ignore_errors=True)
+        self._tidy()
 
     def __enter__(self) -> SerialPort:
         return self
@@ -173,3 +173,8 @@ class SerialPort:
     def _say(self, far: int, data: bytes) -> None:
         with contextlib.suppress(BlockingIOError):
             os.write(far, self.noise(data) if self.noise else data)
+
+
+def _remove(folder: str, process: int) -> None:
+    if os.getpid() == process:  # a forked child's port is its parent's
+        shutil.rmtree(folder, ignore_errors=True)

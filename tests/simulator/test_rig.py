@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import errno
 import os
+import subprocess
 import sys
 import threading
 import time
@@ -296,6 +297,14 @@ def test_a_host_that_reads_no_answers_does_not_hold_the_board():
             time.sleep(0.01)
         assert port.bytes == 300 * len(encode(Hello(nonce=1)))
         os.close(far)
+
+
+@needs_pty
+def test_a_script_that_closes_nothing_leaves_nothing():
+    script = "from paneldraw.simulator import Rig; print(Rig(['serial:///dev/ttyACM0']).panels[0].port.path)"
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=60)
+    assert done.stdout.endswith("/ttyACM0\n"), done.stderr
+    assert not os.path.lexists(os.path.dirname(done.stdout))
 
 
 @needs_pty
