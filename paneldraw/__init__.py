@@ -11,22 +11,28 @@ if not _compiled.COMPILED:
 
     _interpreted.load_sources()
 
-from paneldraw.framebuffer import Framebuffer
-from paneldraw.raster.cone import ConeFilter
-from paneldraw.raster.coverage import Supersample
-
 if TYPE_CHECKING:
+    from paneldraw.framebuffer import Framebuffer
     from paneldraw.panel import Panel, open_panel
+    from paneldraw.raster.cone import ConeFilter
+    from paneldraw.raster.coverage import Supersample
     from paneldraw.text import Font
 
 __all__ = ["ConeFilter", "Font", "Framebuffer", "Panel", "Supersample", "open_panel"]
 
-_LATER = {"Font": "text", "Panel": "panel", "open_panel": "panel"}
+_LATER = {
+    "ConeFilter": "raster.cone",
+    "Font": "text",
+    "Framebuffer": "framebuffer",
+    "Panel": "panel",
+    "Supersample": "raster.coverage",
+    "open_panel": "panel",
+}
 
 if not TYPE_CHECKING:
 
     def __getattr__(name: str) -> object:
-        """Import what a script that only draws can do without where somebody asks for it."""
+        """Import a part, and numpy with it, where somebody asks for it: every pytest session imports this package."""
         if name not in _LATER:
             raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
         import importlib

@@ -10,7 +10,7 @@ import threading
 import time
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
-from typing import Any, Final, Literal, NamedTuple
+from typing import TYPE_CHECKING, Any, Final, Literal, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -25,6 +25,9 @@ from paneldraw.leaving import arrange, follow
 from paneldraw.pacing import Frames
 from paneldraw.sender import Sender
 from paneldraw.transports import I2CTransport, SerialTransport, SPITransport, Transport
+
+if TYPE_CHECKING:
+    from typing_extensions import Self  # part of mypy; of Python from 3.11 on
 
 Levels = npt.NDArray[np.uint8]
 OnClose = Literal["keep", "clear", "off"]
@@ -585,7 +588,7 @@ class Panel:
         elif getattr(self, "_sender", None) is not None:
             self._sender.stop(0.0)  # type: ignore[union-attr]
 
-    def __enter__(self) -> Panel:
+    def __enter__(self) -> Self:
         return self
 
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: object) -> None:
