@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import ctypes
 import errno
+import functools
 import glob
+import importlib
 import os
+import sys
 import threading
 import weakref
 from collections.abc import Callable
@@ -409,9 +412,26 @@ class _Messages:
 
 
 def _smbus2() -> ModuleType:
-    import smbus2  # Linux only, and not needed by a script that never opens a bus
-
+    try:
+        import smbus2  # not needed by a script that never opens a bus
+    except ModuleNotFoundError as error:
+        if error.name != "fcntl":
+            raise
+        return _smbus2_without_fcntl()
     return smbus2
+
+
+@functools.cache
+def _smbus2_without_fcntl() -> ModuleType:
+    """Import smbus2 where there is no bus to open, for its messages to simulated ones."""
+    lent = ModuleType("fcntl")
+    lent.ioctl = None  # type: ignore[attr-defined]
+    sys.modules["fcntl"] = lent
+    try:
+        return importlib.import_module("smbus2")
+    finally:
+        for name in ("fcntl", "smbus2", "smbus2.smbus2"):  # nobody else shall believe that they work here
+            sys.modules.pop(name, None)
 
 
 def _path(bus: Any) -> str:
