@@ -1,4 +1,4 @@
-"""What all tests share: the package at both its speeds, and pictures to compare with."""
+"""What all tests share: the package at both its speeds, and the command as a process."""
 
 from __future__ import annotations
 
@@ -12,7 +12,6 @@ from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
-from golden import assert_golden
 from hypothesis import HealthCheck, settings
 from running import forked, started
 
@@ -28,18 +27,6 @@ COMMON = settings(
 settings.register_profile("quick", COMMON, max_examples=10)
 settings.register_profile("thorough", COMMON, max_examples=50)
 settings.load_profile("quick")  # unless --hypothesis-profile names another
-
-
-def pytest_addoption(parser):
-    parser.addoption("--update-golden", action="store_true", help="rewrite the pictures under tests/golden")
-
-
-@pytest.fixture
-def golden(request, tmp_path):
-    """Compare a framebuffer with a picture under tests/golden: ``golden(fb, "name.png")``."""
-    update = request.config.getoption("--update-golden")
-    return lambda fb, name: assert_golden(fb, name, tmp_path, update)
-
 
 # Elsewhere a copy of a process may find its libraries in disorder.
 PROCESSES = [forked, pytest.param(started, marks=pytest.mark.thorough)] if sys.platform == "linux" else [started]

@@ -1,4 +1,4 @@
-"""What needs nothing of Unix runs without it: simulated panels, demos, drawing and its tests, the command, the plugin."""
+"""What needs nothing of Unix runs without it: simulated panels, demos, drawing and its tests, command and plugin."""
 
 from __future__ import annotations
 

@@ -6,10 +6,11 @@ import io
 
 import numpy as np
 import pytest
-from golden import assert_pattern
 from hypothesis import given
 from hypothesis import strategies as st
 from PIL import Image
+
+from paneldraw.testing import assert_pattern
 
 DEPTHS = (1, 2, 4, 8)
 

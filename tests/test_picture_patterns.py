@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-from golden import assert_pattern
+
+from paneldraw.testing import assert_pattern
 
 
 def test_text(package):

@@ -31,7 +31,7 @@ def sheet():
 
 
 def test_the_font_is_as_it_was_drawn(request):
-    if request.config.getoption("--update-golden"):
+    if request.config.getoption("--update-frames"):
         GOLDEN.write_text(picture(render(sheet())[0]) + "\n", encoding="ascii")
     assert picture(render(sheet())[0]) + "\n" == GOLDEN.read_text(encoding="ascii")
 

@@ -8,11 +8,12 @@ from math import ceil, degrees
 import definitions
 import numpy as np
 import pytest
-from golden import assert_pattern
 from hypothesis import assume, example, given
 from hypothesis import strategies as st
 from searching import examples
 from stroke_definitions import HEIGHT, ROUNDING, WIDTH, counted, dashed_stroke, stroke_bounds
+
+from paneldraw.testing import assert_pattern
 
 REACH = definitions.REACH
 near = st.integers(-20, 33)

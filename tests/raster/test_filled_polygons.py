@@ -7,11 +7,12 @@ from array import array
 import numpy as np
 import pytest
 from definitions import painted
-from golden import assert_pattern
 from hypothesis import assume, example, given
 from hypothesis import strategies as st
 from searching import examples
 from stroke_definitions import HEIGHT, WIDTH, as_counted, counted, far_polygon, polygon
+
+from paneldraw.testing import assert_pattern
 
 rules = st.sampled_from(["even-odd", "nonzero"])
 references = st.sampled_from(["center", "corner"])

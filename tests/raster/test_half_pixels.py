@@ -8,11 +8,12 @@ import definitions
 import numpy as np
 import pytest
 import round_definitions
-from golden import assert_pattern
 from hypothesis import assume, example, given
 from hypothesis import strategies as st
 from PIL import Image, ImageDraw
 from searching import examples
+
+from paneldraw.testing import assert_pattern
 
 WIDTH, HEIGHT = 21, 15
 LARGEST = 131072

@@ -7,12 +7,12 @@ from math import atan2, ceil, cos, degrees, floor, hypot, radians, sin
 
 import numpy as np
 import pytest
-from golden import assert_pattern
 from hypothesis import example, given
 from hypothesis import strategies as st
 from searching import examples
 
 from paneldraw import ConeFilter, Framebuffer, Supersample
+from paneldraw.testing import assert_pattern
 
 WIDTH, HEIGHT = 23, 15
 MARGIN = 9

@@ -5,11 +5,12 @@ from __future__ import annotations
 import definitions
 import numpy as np
 import pytest
-from golden import assert_pattern
 from hypothesis import assume, example, given
 from hypothesis import strategies as st
 from searching import examples
 from stroke_definitions import HEIGHT, ROUNDING, WIDTH, counted, stroke, stroke_bounds
+
+from paneldraw.testing import assert_pattern
 
 whole = st.integers(-3, 15)
 quarters = st.integers(-12, 60).map(lambda v: v / 4)

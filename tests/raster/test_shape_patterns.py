@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from golden import assert_pattern
+from paneldraw.testing import assert_pattern
 
 # -- Circles
 

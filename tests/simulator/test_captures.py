@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import gzip
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
 from paneldraw import simulator
+from paneldraw.testing import assert_frame
 
 CAPTURES = Path(__file__).parent / "captures"
 RESERVED_MODE = "20 10: the upper bits of the addressing mode are 0"
@@ -38,7 +38,7 @@ def over_spi(name: str, chip: simulator.SSD1306) -> None:
         chip.settle(float(seconds), sum(len(run) // 2 for run in runs))
 
 
-def test_the_same_program_over_i2c_and_spi_shows_the_same_pictures(golden: Callable[[Any, str], None]) -> None:
+def test_the_same_program_over_i2c_and_spi_shows_the_same_pictures() -> None:
     """A line of letters below another wanders on from picture to picture; the one capture is longer than the other."""
     wired, serial = simulator.SSD1306(), simulator.SSD1306()
     over_i2c("ssd1306-i2c", wired)
@@ -47,7 +47,7 @@ def test_the_same_program_over_i2c_and_spi_shows_the_same_pictures(golden: Calla
     assert len(loop) == 11
     assert wired.pixels.tobytes() in loop
     assert loop <= {frame.pixels.tobytes() for frame in wired.frames}
-    golden(wired.frames[-1], "capture_ssd1306.png")
+    assert_frame(wired.frames[-1], "capture_ssd1306.png")
     for chip in (wired, serial):
         assert chip.violations == []
         assert chip.remarks == [RESERVED_MODE, POINTER]
@@ -62,8 +62,8 @@ def test_their_frames_are_whole_pictures() -> None:
     assert np.diff([frame.seconds for frame in chip.frames])[1:].min() > 0.009
 
 
-def test_the_reserved_mode_works_as_its_low_bits_say(golden: Callable[[Any, str], None]) -> None:
+def test_the_reserved_mode_works_as_its_low_bits_say() -> None:
     chip = simulator.SSD1306()
     over_i2c("ssd1306-i2c-reserved-mode", chip)
-    golden(simulator.Frame(chip.pixels[::-1, ::-1], 0, 0), "capture_reserved_mode.png")
+    assert_frame(simulator.Frame(chip.pixels[::-1, ::-1], 0, 0), "capture_reserved_mode.png")
     assert (chip.violations, chip.remarks) == ([], [RESERVED_MODE, POINTER])
