@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import contextlib
 import os
 import re
+import shlex
 import tempfile
 from pathlib import Path, PurePosixPath
 from typing import TYPE_CHECKING, Any, Final, NoReturn
@@ -31,10 +31,6 @@ class _Picture:
 
     def __init__(self, pixels: Levels, max_level: int) -> None:
         self.pixels, self.max_level = pixels, max_level
-
-
-class UnreadableError(Exception):
-    """A golden picture that is there and is none; the text says why."""
 
 
 def assert_frame(source: Any, name: str) -> None:
@@ -67,29 +63,22 @@ def assert_frame(source: Any, name: str) -> None:
     if test.config.getoption("--update-frames"):
         _update(test, path, levels, max_level)
         return
-    if not path.exists():
-        look = _keep(test, name, [("shown", levels, max_level)])
-        _fail(test, f"there is no golden picture {path}", f"what was shown is in {look}", "if that is right")
-    try:
-        golden = _read(path, max_level)
-    except UnreadableError as error:
-        look = _keep(test, name, [("shown", levels, max_level)])
-        _fail(test, str(error), f"what was shown is in {look}", "if that is right")
+    golden, shown = _read(path, max_level), ("shown", levels, max_level)
+    if isinstance(golden, str):
+        _fail(test, name, golden, [shown])
+    pictures = [("expected", golden, max_level), shown]
     if golden.shape != levels.shape:
-        look = _keep(test, name, [("expected", golden, max_level), ("shown", levels, max_level)])
         sizes = [f"{each.shape[1]}x{each.shape[0]}" for each in (golden, levels)]
-        said = f"{path} has {sizes[0]} pixels, and {sizes[1]} were shown"
-        _fail(test, said, f"both are in {look}", "if what was shown is right")
+        _fail(test, name, f"{path} has {sizes[0]} pixels, and {sizes[1]} were shown", pictures)
     if not np.array_equal(golden, levels):
-        look = _keep(test, name, [("expected", golden, max_level), ("shown", levels, max_level)])
         differs = difference(_Picture(golden, max_level), _Picture(levels, max_level), ("expected", "shown"))
-        _fail(test, f"what was shown is not {path}", differs, f"all is in {look}", "if what was shown is right")
+        _fail(test, name, f"what was shown is not {path}\n{differs}", pictures)
 
 
-def _fail(test: pytest.Item, *lines: str) -> NoReturn:
+def _fail(test: pytest.Item, name: str, reason: str, pictures: list[tuple[str, Levels, int]]) -> NoReturn:
     __tracebackhide__ = True
-    advice = f"{lines[-1]}: pytest --update-frames '{test.nodeid}'"
-    raise AssertionError("\n".join([*lines[:-1], advice]))
+    advice = f"if what was shown is right: pytest --update-frames {shlex.quote(test.nodeid)}"
+    raise AssertionError("\n".join((reason, _keep(test, name, pictures), advice)))
 
 
 def _test() -> pytest.Item:
@@ -108,69 +97,71 @@ def _place(name: str) -> Path:
     return (test.config.rootpath / folder if folder else test.path.parent / "golden").joinpath(*parts)
 
 
-def _read(path: Path, max_level: int) -> Levels:
-    """Read the levels of a golden picture."""
+def _grays(levels: Levels, max_level: int) -> Levels:
+    return levels * np.uint8(255 // max_level)
+
+
+def _read(path: Path, max_level: int) -> Levels | str:
+    """Read the levels of a golden picture; return why not where there are none."""
     from PIL import Image
 
     try:
         with Image.open(path) as file:
             grays, mode = np.asarray(file.convert("L")), file.mode
-    except OSError as error:
-        if error.errno is not None:
-            raise UnreadableError(f"the golden picture {path} cannot be read: {error.strerror}") from error
-        raise UnreadableError(f"the golden picture {path} is damaged: {error}") from error
+    except FileNotFoundError:
+        return f"there is no golden picture {path}"
     except Exception as error:  # Pillow raises much
-        raise UnreadableError(f"the golden picture {path} is damaged: {error}") from error
+        if isinstance(error, OSError) and error.errno is not None:
+            return f"the golden picture {path} cannot be read: {error.strerror}"
+        return f"the golden picture {path} is damaged: {error}"
     if mode not in ("L", "1"):
-        raise UnreadableError(f"{path} is no golden picture, which is gray, a pixel a pixel: its mode is {mode}")
+        return f"{path} is no golden picture, which is gray, a pixel a pixel: its mode is {mode}"
     step = 255 // max_level
     if (grays % step).any():
-        raise UnreadableError(f"{path} is a golden picture of a panel with more grays than the {max_level + 1} of this")
+        return f"{path} is a golden picture of a panel with more grays than the {max_level + 1} of this"
     return grays // np.uint8(step)
 
 
 def _update(test: pytest.Item, path: Path, levels: Levels, max_level: int) -> None:
-    """Write a golden picture, unless it is there; whoever reads it meanwhile finds the old one or the new."""
+    """Write a golden picture, unless it is there."""
     __tracebackhide__ = True
     from PIL import Image
 
-    before = test.config.stash.setdefault(_UPDATED, {}).setdefault(path, levels)
+    before = test.config.stash.setdefault(_UPDATED, {}).setdefault(path, levels.copy())
     if not np.array_equal(before, levels):
         raise AssertionError(f"two pictures cannot both be {path}: give them names of their own")
-    with contextlib.suppress(UnreadableError):
-        if path.exists() and np.array_equal(_read(path, max_level), levels):
-            return
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        _save(Image.fromarray(levels * np.uint8(255 // max_level)), path)
-    except OSError as error:
-        raise AssertionError(f"the golden picture {path} cannot be written: {error.strerror}") from error
+    there = _read(path, max_level)
+    if not isinstance(there, str) and np.array_equal(there, levels):
+        return
+    if (reason := _save(Image.fromarray(_grays(levels, max_level)), path)) is not None:
+        raise AssertionError(f"the golden picture {path} cannot be written: {reason}")
     test.user_properties.append((running.WRITTEN, str(path)))
 
 
-def _save(picture: Image, path: Path) -> None:
+def _save(picture: Image, path: Path) -> str | None:
+    """Write a picture; whoever reads it meanwhile finds the one before. Return why not where it cannot be written."""
     draft = path.with_name(f".{path.name}.{os.getpid()}")
     try:
-        picture.save(draft, "PNG", optimize=True)
-        os.replace(draft, path)
-    finally:
-        draft.unlink(missing_ok=True)
+        path.parent.mkdir(parents=True, exist_ok=True)
+        try:
+            picture.save(draft, "PNG", optimize=True)
+            os.replace(draft, path)
+        finally:
+            draft.unlink(missing_ok=True)
+    except OSError as error:
+        return error.strerror or str(error)
+    return None
 
 
 # -- pictures of failures
 
 
 def _keep(test: pytest.Item, name: str, pictures: list[tuple[str, Levels, int]]) -> str:
-    """Write pictures side by side, and what differs in them, where the report is; return where, or why not."""
-    try:
-        folder = _failures(test)
-        folder.mkdir(parents=True, exist_ok=True)
-        unique = re.sub(r"[^\w.=-]+", "-", f"{test.nodeid}-{name}").strip("-")
-        path = folder / (unique if len(unique) <= 120 else unique[-120:].lstrip("-."))
-        _save(_beside(pictures), path)
-    except OSError as error:
-        return f"no file, as none can be written: {error}"
-    return str(path)
+    """Write pictures side by side, and what differs in them, where the report is; say where, or why not."""
+    unique = re.sub(r"[^\w.=-]+", "-", f"{test.nodeid}-{name}").strip("-")
+    path = _failures(test) / (unique if len(unique) <= 120 else unique[-120:].lstrip("-."))
+    reason = _save(_beside(pictures), path)
+    return f"see {path}" if reason is None else f"no picture of it can be written to {path}: {reason}"
 
 
 def _failures(test: pytest.Item) -> Path:

@@ -102,7 +102,7 @@ def frames_of(source: Any) -> list[Frame]:
     >>> with open_panel("sim://ssd1306") as panel:
     ...     for x in range(3):
     ...         with panel.frame() as fb:
-    ...             fb.pixel(x, 0)
+    ...             fb.pixel(x, 0, 1)
     >>> [int(frame.pixels.sum()) for frame in frames_of(panel)]
     [1, 1, 1]
     """
@@ -122,8 +122,8 @@ def assert_bytes(sent: Sent, *, at_most: int) -> None:
     --------
     >>> from paneldraw import open_panel
     >>> with open_panel("sim://ssd1306") as panel, panel.frame() as fb:
-    ...     fb.pixel(5, 5)
-    >>> fb.pixel(6, 5)
+    ...     fb.pixel(5, 5, 1)
+    >>> fb.pixel(6, 5, 1)
     >>> assert_bytes(panel.show(fb), at_most=8)
     """
     __tracebackhide__ = True
