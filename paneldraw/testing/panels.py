@@ -140,6 +140,7 @@ def _reach(placed: RigPanel, wanted: urls.PanelURL | urls.SerialURL) -> tuple[Tr
         return port, wanted.controller(port.device)
     settings = {name: value for name, value in wanted.transport.items() if name not in ("gpiochip", "device")}
     if isinstance(bus, SPIBus):
+        bus.spi.cshigh = wanted.controller.synced
         settings = {"dc": bus.dc, "reset": bus.reset} | settings
         return SPITransport(spi=bus.spi, pins=bus.pins, **settings), wanted.controller
     settings.pop("reset", None)  # nobody is at that line

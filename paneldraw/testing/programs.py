@@ -37,6 +37,7 @@ class Program:
     def __init__(self, command: Command, run: SimRun, cwd: Path | str | None, env: Mapping[str, str] | None) -> None:
         self.panels = run.panels
         self.command = _arguments(command)
+        self._swept = False
         self._files: list[IO[bytes]] = [tempfile.TemporaryFile() for _ in range(2)]  # noqa: SIM115 - closed by `close`
         first = {"PANELDRAW_PANEL": self.panels[0].url} if self.panels else {}
         try:
@@ -103,18 +104,19 @@ class Program:
             time.sleep(_POLL)
 
     def stop(self) -> int:
-        """End it by SIGTERM, or else kill it; return the exit code. What has ended stays as it is."""
+        """End it by SIGTERM, or else kill it, with all that it started; return the exit code."""
         if self.process.poll() is None:
             self._signal(signal.SIGTERM)
             with contextlib.suppress(subprocess.TimeoutExpired):
                 self.process.wait(_PATIENCE)
-        self.kill()
-        return self.process.wait()
+        return self.kill()
 
-    def kill(self) -> None:
-        """Kill it, and what it started."""
-        self._signal(signal.SIGKILL)
-        self.process.wait()
+    def kill(self) -> int:
+        """Kill it, with all that it started; return the exit code."""
+        if not self._swept:
+            self._signal(signal.SIGKILL)
+            self._swept = True  # its number may be another's now
+        return self.process.wait()
 
     def close(self) -> None:
         """Stop it, and forget what it wrote."""
@@ -167,14 +169,11 @@ class SimRun:
     """
 
     def __init__(self, where: str | Iterable[str] = "i2c://1/0x3c?chip=ssd1306") -> None:
-        self._programs: list[Program] = []
-        self._rig = Rig([where] if isinstance(where, str) else where)
-        try:
-            self._preload = self._rig.preload()
-        except BaseException:
-            self._rig.close()
-            raise
-        self.panels = self._rig.panels
+        with contextlib.ExitStack() as unless_done:
+            rig = unless_done.enter_context(Rig([where] if isinstance(where, str) else where))
+            self._preload = unless_done.enter_context(rig.preload())
+            self._open = unless_done.pop_all()
+        self.panels = rig.panels
 
     @property
     def panel(self) -> RigPanel:
@@ -211,16 +210,12 @@ class SimRun:
     ) -> Program:
         """Start a program and go on; it is stopped at the end of the test, or of its own ``with`` block."""
         program = Program(command, self, cwd, env)
-        self._programs.append(program)
+        self._open.callback(program.close)
         return program
 
     def close(self) -> None:
         """End all programs and unplug all panels."""
-        with contextlib.ExitStack() as stack:
-            stack.callback(self._rig.close)
-            stack.callback(self._preload.close)
-            for program in self._programs:
-                stack.callback(program.close)
+        self._open.close()
 
     def __enter__(self) -> SimRun:
         return self

@@ -194,7 +194,7 @@ def _part(levels: Levels, at: tuple[int, int], shape: tuple[int, ...]) -> Levels
 def _grid(text: str) -> Characters:
     rows = text.split("\n")
     width = max(map(len, rows))
-    return np.array([list(row.ljust(width)) for row in rows]).reshape(len(rows), width)
+    return np.array([list(row.ljust(width)) for row in rows], "U1").reshape(len(rows), width)
 
 
 def _same_size(*grids: Characters) -> list[Characters]:

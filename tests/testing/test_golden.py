@@ -204,7 +204,7 @@ def test_what_cannot_be_written(session, line):
 
 @pytest.mark.parametrize("name", ["", ".png", "line.gif", "../line.png", "menu/../../line.png", "/line.png"])
 def test_a_name_out_of_the_folder(name):
-    with pytest.raises(ValueError, match="name must be that of a .png file"):
+    with pytest.raises(ValueError, match="name must be that of a"):
         assert_frame(Framebuffer(8, 8), name)
 
 
