@@ -86,7 +86,8 @@ def test_links_lead_somewhere(page):
     anchors = {re.sub(r"[^\w -]", "", title).lower().replace(" ", "-") for title in titles}
     prose = re.sub(r"^```.*?^```$", "", text, flags=re.M | re.S)
     for link in re.findall(r"\]\((.*?)\)", prose):
-        assert link[1:] in anchors if link.startswith("#") else (DOCS / link).exists(), link
+        if not link.startswith("https://"):
+            assert link[1:] in anchors if link.startswith("#") else (DOCS / link).exists(), link
 
 
 @pytest.mark.parametrize(("name", "tables"), make_pictures.PAGES.items())

@@ -121,10 +121,11 @@ def assert_bytes(sent: Sent, *, at_most: int) -> None:
     Examples
     --------
     >>> from paneldraw import open_panel
-    >>> with open_panel("sim://ssd1306") as panel, panel.frame() as fb:
+    >>> with open_panel("sim://ssd1306") as panel:
+    ...     fb = panel.framebuffer()
+    ...     blank = panel.show(fb)
     ...     fb.pixel(5, 5, 1)
-    >>> fb.pixel(6, 5, 1)
-    >>> assert_bytes(panel.show(fb), at_most=8)
+    ...     assert_bytes(panel.show(fb), at_most=8)
     """
     __tracebackhide__ = True
     if sent.wire_bytes > at_most:

@@ -1,4 +1,4 @@
-"""CPU time of `import paneldraw` after `import numpy`, each in a fresh interpreter, and what it brings along."""
+"""CPU time of a script's import of paneldraw after `import numpy`, in a fresh interpreter, and what it brings along."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ import sys
 from statistics import median
 
 WANTED = 0.03
+OURS = "from paneldraw import ConeFilter, Framebuffer, Supersample"
 LATE = ("PIL", "smbus2", "serial", "cobs", "spidev", "gpiod", "aiohttp")
 
 PROGRAM = """
@@ -30,7 +31,7 @@ def fresh(statement: str) -> tuple[float, int, list[str]]:
 def run(rounds: int) -> None:
     """Print the cost of ours and of peers, taken in turn, and ours' threads and early imports."""
     statements = {
-        "import paneldraw": "import paneldraw",
+        "import paneldraw": OURS,
         "import luma.oled.device": "import luma.oled.device",
         "import adafruit_ssd1306": "import adafruit_ssd1306",
     }
@@ -54,6 +55,6 @@ def run(rounds: int) -> None:
     for name, seconds in samples.items():
         if name not in missing and seconds is not samples["import paneldraw"]:
             print(f"  {name:<44}{1e3 * median(seconds):9.1f} ms   {median(seconds) / ours:.3g}x")
-    _, threads, modules = fresh("import paneldraw")
+    _, threads, modules = fresh(OURS)
     early = [name for name in LATE if name in modules]
     print(f"  threads started: {threads}; of {', '.join(LATE)} already imported: {', '.join(early) or 'none'}")
