@@ -140,6 +140,7 @@ def test_the_metadata(wheel):
     assert {"numpy", "Pillow", "smbus2", "pyserial"} <= needed <= {"numpy", "Pillow", "smbus2", "pyserial", "cobs"}
     scripts = wheel.read(f"{INFO}/entry_points.txt").decode()
     assert "paneldraw = paneldraw.cli:main" in scripts
+    assert "[pytest11]\npaneldraw = paneldraw.testing.plugin" in scripts
     assert metadata["Version"] in (PROJECT / "CHANGELOG.md").read_text(encoding="utf-8")
 
 
@@ -176,9 +177,11 @@ def test_a_users_type_checker_knows_the_types(wheel, tmp_path):
 
 
 def test_import_is_light_and_touches_nothing():
-    look = "import json, sys, threading, paneldraw; print(json.dumps([threading.active_count(), sorted(sys.modules)]))"
+    names = "from paneldraw import ConeFilter, Framebuffer, Supersample"
+    look = f"import json, sys, threading; {names}; print(json.dumps([threading.active_count(), sorted(sys.modules)]))"
     threads, modules = json.loads(subprocess.run([sys.executable, "-c", look], capture_output=True, check=True).stdout)
     assert threads == 1
+    assert "numpy" in modules
     assert not {"PIL", "smbus2", "serial", "cobs", "spidev", "gpiod", "aiohttp", "asyncio"} & set(modules)
 
 

@@ -45,11 +45,15 @@ def pytest_exception_interact(node: object) -> None:
 
 def pytest_assertrepr_compare(op: str, left: object, right: object) -> list[str] | None:
     """Show framebuffers that differ as pictures."""
-    if op != "==" or not all(type(side).__name__ == "Framebuffer" for side in (left, right)):
+    if op != "==" or not all(_is_framebuffer(side) for side in (left, right)):
         return None
     from paneldraw.testing.seeing import difference
 
     return ["the framebuffers differ", *difference(left, right, ("left", "right")).splitlines()]
+
+
+def _is_framebuffer(thing: object) -> bool:
+    return type(thing).__name__ == "Framebuffer" and type(thing).__module__.startswith("paneldraw.")
 
 
 def pytest_terminal_summary(terminalreporter: Any) -> None:
@@ -65,7 +69,7 @@ def pytest_terminal_summary(terminalreporter: Any) -> None:
 
 
 @pytest.fixture
-def _nothing_left(request: pytest.FixtureRequest) -> Iterator[None]:
+def _paneldraw_leaves_nothing(request: pytest.FixtureRequest) -> Iterator[None]:
     """Demand that a test leaves no thread, device or socket of ours open; the fixtures here are gone by then."""
     from paneldraw.testing.leaks import Held
 
@@ -76,7 +80,7 @@ def _nothing_left(request: pytest.FixtureRequest) -> Iterator[None]:
 
 
 @pytest.fixture
-def sim_panel(request: pytest.FixtureRequest, _nothing_left: None) -> Iterator[SimPanel]:
+def sim_panel(request: pytest.FixtureRequest, _paneldraw_leaves_nothing: None) -> Iterator[SimPanel]:
     """A panel on a simulated bus, of the URL that the test is parametrized with; default ``sim://ssd1306``."""
     from paneldraw.testing.panels import SimPanel
 
@@ -85,7 +89,7 @@ def sim_panel(request: pytest.FixtureRequest, _nothing_left: None) -> Iterator[S
 
 
 @pytest.fixture
-def serial_panel(request: pytest.FixtureRequest, _nothing_left: None) -> Iterator[SerialPanel]:
+def serial_panel(request: pytest.FixtureRequest, _paneldraw_leaves_nothing: None) -> Iterator[SerialPanel]:
     """A panel behind a board on a simulated serial port; default ``serial:///dev/ttyACM0?chip=ssd1306``."""
     from paneldraw.testing.panels import SerialPanel
 
@@ -94,7 +98,7 @@ def serial_panel(request: pytest.FixtureRequest, _nothing_left: None) -> Iterato
 
 
 @pytest.fixture
-def i2c_bus(request: pytest.FixtureRequest, _nothing_left: None) -> Iterator[I2CBus]:
+def i2c_bus(request: pytest.FixtureRequest, _paneldraw_leaves_nothing: None) -> Iterator[I2CBus]:
     """A simulated I2C bus with the panels of URLs on it; default ``i2c://1/0x3c?chip=ssd1306``."""
     from paneldraw.testing.panels import bus_of
 
@@ -103,7 +107,7 @@ def i2c_bus(request: pytest.FixtureRequest, _nothing_left: None) -> Iterator[I2C
 
 
 @pytest.fixture
-def spi_bus(request: pytest.FixtureRequest, _nothing_left: None) -> Iterator[SPIBus]:
+def spi_bus(request: pytest.FixtureRequest, _paneldraw_leaves_nothing: None) -> Iterator[SPIBus]:
     """A simulated SPI bus with the panel of a URL at its chip select; default ``spi://0.0?chip=ssd1306``."""
     from paneldraw.testing.panels import bus_of
 
@@ -112,7 +116,7 @@ def spi_bus(request: pytest.FixtureRequest, _nothing_left: None) -> Iterator[SPI
 
 
 @pytest.fixture
-def sim_run(request: pytest.FixtureRequest, _nothing_left: None) -> Iterator[SimRun]:
+def sim_run(request: pytest.FixtureRequest, _paneldraw_leaves_nothing: None) -> Iterator[SimRun]:
     """Runs programs with simulated panels in place of the devices; default ``i2c://1/0x3c?chip=ssd1306``."""
     if sys.platform != "linux":
         pytest.skip("sim_run needs Linux, whose loader lends a program the simulated devices")
