@@ -68,8 +68,8 @@ def _devices(source: Any) -> list[Any]:
     for holder in ("panel", "chip", "simulated"):  # of a program; of a panel there; of a panel here
         if (inside := getattr(source, holder, None)) is not None:
             return _devices(inside)
-    transport = getattr(source, "transport", None)
-    bus = getattr(transport, "bus", None)
+    transport = getattr(source, "transport", None)  # of a panel that somebody put on a simulated bus
+    bus = getattr(transport, "bus", None) or getattr(getattr(transport, "spi", None), "_bus", None)
     if isinstance(bus, Wire):
         at = getattr(bus, "devices", {}).get(getattr(transport, "address", None))
         return _devices(bus) if at is None else [at]
