@@ -9,7 +9,7 @@ from paneldraw import _compiled
 if not _compiled.COMPILED:
     from paneldraw import _interpreted
 
-    _interpreted.load_sources()
+    _interpreted.load_when_needed()
 
 if TYPE_CHECKING:
     from paneldraw.framebuffer import Framebuffer

@@ -102,3 +102,31 @@ def load_sources() -> None:
         sys.meta_path.remove(lender)
         _take_back()
         sys.modules.update(own)
+
+
+class _WhenNeeded(importlib.abc.MetaPathFinder, importlib.abc.Loader):
+    """Waits for the first import of one of `MODULES`, and loads them all."""
+
+    def find_spec(
+        self, fullname: str, path: Sequence[str] | None = None, target: ModuleType | None = None
+    ) -> importlib.machinery.ModuleSpec | None:
+        if fullname not in MODULES or getattr(sys.modules.get(__name__), "__dict__", None) is not globals():
+            return None  # that of another copy of the package
+        load_sources()
+        sys.meta_path.remove(self)
+        module = sys.modules[fullname]
+        self._own = module.__spec__
+        module.__spec__ = importlib.machinery.ModuleSpec(fullname, self)  # or else it would be loaded again
+        return module.__spec__
+
+    def create_module(self, spec: importlib.machinery.ModuleSpec) -> ModuleType:
+        return sys.modules[spec.name]
+
+    def exec_module(self, module: ModuleType) -> None:
+        """Nothing to run: it is loaded."""
+        module.__spec__ = self._own
+
+
+def load_when_needed() -> None:
+    """Have `MODULES` imported as plain Python where one of them is imported first."""
+    sys.meta_path.insert(0, _WhenNeeded())

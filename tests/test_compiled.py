@@ -118,9 +118,23 @@ def run(folder, code):
     return done.stdout.split()
 
 
+@pytest.mark.parametrize("first", ["paneldraw.raster.stroke", "paneldraw.controllers.packing", "paneldraw.panel"])
+def test_the_sources_wait_until_one_is_needed(sources, first):
+    code = f"""if True:
+        import importlib, sys, paneldraw
+        print("numpy" in sys.modules)
+        import {first}
+        specs = [importlib.import_module(name).__spec__ for name in paneldraw._compiled.MODULES]
+        print(all(spec.origin.endswith(".py") and spec.loader.name == spec.name for spec in specs))
+        print(len([finder for finder in sys.meta_path if type(finder).__module__.startswith("paneldraw")]))
+    """
+    assert run(sources.folder, code) == ["False", "True", "0"]
+
+
 def test_the_stand_in_leaves_no_trace(sources):
     code = """if True:
         import sys, paneldraw
+        paneldraw.Framebuffer(8, 8)
         print(paneldraw.__file__)
         print([name for name in sys.modules if "cython" in name.lower()])
     """
