@@ -50,6 +50,8 @@ class SimPanel(Panel):
     bus: I2CBus | SPIBus
 
     def __init__(self, url: str = "sim://ssd1306") -> None:
+        if getattr(urls.parse(url), "watch", None):
+            raise ValueError(f"url must leave a test alone: paneldraw.simulator.save records its panel, not {url!r}")
         self._rig = _rig([url])
         try:
             self._place(self._rig.panels[0])

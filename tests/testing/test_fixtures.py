@@ -112,6 +112,8 @@ def test_a_panel_that_is_none():
         SimPanel("sim://ssd1307")
     with pytest.raises(ValueError, match="contrast must be 0 to 255"):
         SimPanel("sim://ssd1306?contrast=300")
+    with pytest.raises(ValueError, match="url must"):
+        SimPanel("sim://ssd1306?view=terminal")
     with pytest.raises(ValueError, match=r"url must be like serial:///dev/ttyACM0\?chip=ssd1306"):
         SerialPanel("sim://ssd1306")
 
