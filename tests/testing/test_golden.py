@@ -202,6 +202,22 @@ def test_what_cannot_be_written(session, line):
     assert said(result)[0].startswith(f"AssertionError: the golden picture {line} cannot be written: ")
 
 
+def test_no_permission(tmp_path, monkeypatch):
+    def denied(*_):
+        raise PermissionError(13, "Permission denied")
+
+    path = tmp_path / "it.png"
+    levels = np.eye(8, dtype=np.uint8)
+    assert golden._save(Image.fromarray(levels), path) is None
+    before = path.read_bytes()
+    with monkeypatch.context() as patch:
+        patch.setattr("os.replace", denied)
+        assert golden._save(Image.fromarray(1 - levels), path) == "Permission denied"
+    assert [file.read_bytes() for file in tmp_path.iterdir()] == [before]
+    monkeypatch.setattr("PIL.Image.open", denied)
+    assert golden._read(path, 1) == f"the golden picture {path} cannot be read: Permission denied"
+
+
 @pytest.mark.parametrize("name", ["", ".png", "line.gif", "../line.png", "menu/../../line.png", "/line.png"])
 def test_a_name_out_of_the_folder(name):
     with pytest.raises(ValueError, match="name must be that of a"):
