@@ -168,6 +168,10 @@ class Driver:
 
         self.attempt(operation)
 
+    def look_again(self) -> None:
+        """Ask the chip with the next picture whether it still has its power, however lately it was asked."""
+        self._looked = float("-inf")
+
     def go_to_rest(self, rest: str) -> None:
         """Dim the panel or turn it off until there is another picture."""
         self.rest = rest

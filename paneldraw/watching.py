@@ -106,7 +106,8 @@ class Watched:
         self.chip = chip
         self._transport, self._twin = transport, twin
         self._look = watch.look
-        self._pace = Pace(lambda: float(bus.seconds)) if watch.realtime else contextlib.nullcontext()
+        if watch.realtime:
+            bus.realtime = True
         self._process = os.getpid()
         self._kinds: list[str] = []
         self._file = ""
@@ -130,15 +131,13 @@ class Watched:
 
     def command(self, payload: bytes) -> int:
         """Send one command message; return the bytes on the wire."""
-        with self._pace:
-            wire = self._transport.command(payload)
+        wire = self._transport.command(payload)
         self._tell(lambda twin: twin.command(payload))
         return wire
 
     def data(self, payload: bytes) -> int:
         """Send one data message; return the bytes on the wire."""
-        with self._pace:
-            wire = self._transport.data(payload)
+        wire = self._transport.data(payload)
         self._tell(lambda twin: twin.data(payload))
         return wire
 
@@ -146,8 +145,7 @@ class Watched:
         """Send all messages of a plan; return the bytes on the wire."""
         starts = list(plan.starts[: plan.count])
         kinds = plan.buffer[starts]
-        with self._pace:
-            wire = self._transport.batch(plan)
+        wire = self._transport.batch(plan)
         plan.buffer[starts] = kinds  # where the transport put bytes of its own
         self._tell(lambda twin: twin.batch(plan))
         return wire
@@ -196,28 +194,6 @@ class Watched:
             if file:
                 _files.discard(file)
                 _write(self.chip, file, self._look)
-
-
-class Pace:
-    """Makes a call last as long as the wire is busy with it; a context manager.
-
-    Parameters
-    ----------
-    busy : callable
-        Gives the seconds that the wire was busy so far.
-    """
-
-    def __init__(self, busy: Callable[[], float]) -> None:
-        self._busy = busy
-        self._free = 0.0  # when the wire has carried all that it was given
-
-    def __enter__(self) -> None:
-        self._free = max(self._free, time.monotonic())
-        self._before = self._busy()
-
-    def __exit__(self, *exception: object) -> None:
-        self._free += self._busy() - self._before
-        time.sleep(max(0.0, self._free - time.monotonic()))
 
 
 class _Shared:

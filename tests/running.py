@@ -11,6 +11,9 @@ import sys
 import tempfile
 import traceback
 import warnings
+from pathlib import Path
+
+import paneldraw
 
 ENVIRONMENT = {name: value for name, value in os.environ.items() if name != "PANELDRAW_PANEL"}
 UTF_8 = {"PYTHONIOENCODING": "utf-8"}
@@ -61,7 +64,7 @@ def _be_the_command(arguments, files, environment):
         os.environ.clear()
         os.environ.update(environment)
         sys.argv[1:] = arguments
-        runpy.run_module("paneldraw", run_name="__main__", alter_sys=True)
+        runpy.run_path(str(Path(paneldraw.__file__).with_name("__main__.py")), run_name="__main__")
         code = 0
     except SystemExit as left:
         code = left.code or 0

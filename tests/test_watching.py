@@ -22,6 +22,7 @@ from paneldraw import open_panel, simulator, watching
 from paneldraw.controllers import CHIPS
 from paneldraw.errors import TransportError
 from paneldraw.pacing import Frames
+from paneldraw.simulator import wire
 from paneldraw.transports import SPITransport
 
 posix = pytest.mark.skipif(not hasattr(os, "fork"), reason="ptys and signals are POSIX")
@@ -158,8 +159,9 @@ class Time:
 @pytest.mark.parametrize(("chip", "rate"), [("ssd1327", 5), ("ssd1306", 30), ("sh1122", 5)])
 def test_a_loop_shows_as_many_frames_a_second_as_the_wire_carries(monkeypatch, chip, rate):
     clock = Time()
-    monkeypatch.setattr(watching, "time", clock)
+    monkeypatch.setattr(wire, "time", clock)
     panel = open_panel(f"sim://{chip}?realtime=1&updates=whole")
+    panel.transport.bus.timer = clock.monotonic
     clock.now = 10.0
     frames, start = Frames(30, clock=clock.monotonic, sleep=clock.sleep), panel.transport.bus.seconds
     for beat in frames:
@@ -172,8 +174,9 @@ def test_a_loop_shows_as_many_frames_a_second_as_the_wire_carries(monkeypatch, c
 
 def test_a_wire_that_rested_owes_nothing(monkeypatch):
     clock = Time()
-    monkeypatch.setattr(watching, "time", clock)
+    monkeypatch.setattr(wire, "time", clock)
     with open_panel("sim://ssd1306?realtime=1") as panel:
+        panel.transport.bus.timer = clock.monotonic
         clock.now = 100.0
         before = panel.transport.bus.seconds
         panel.show(noise(panel))
@@ -182,7 +185,7 @@ def test_a_wire_that_rested_owes_nothing(monkeypatch):
 
 def test_without_it_nobody_sleeps(monkeypatch):
     clock = Time()
-    monkeypatch.setattr(watching, "time", clock)
+    monkeypatch.setattr(wire, "time", clock)
     with open_panel("sim://ssd1306?view=terminal") as panel:
         panel.show(noise(panel))
     assert clock.now == 0

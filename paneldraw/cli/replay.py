@@ -60,8 +60,7 @@ def add(commands: Any, save_path: Callable[[str], Path], count: Number, rate: Nu
 
 
 def _replay(options: argparse.Namespace) -> int:
-    from paneldraw.panel import _simulated
-    from paneldraw.simulator import TerminalView, Transcript, find_look, replay, save
+    from paneldraw.simulator import TerminalView, Transcript, find_look, replay, save, simulated_chip
 
     url = f"sim://{options.chip}" if options.chip else options.panel or os.environ.get("PANELDRAW_PANEL") or "sim://"
     wanted = urls.parse(url)
@@ -70,8 +69,7 @@ def _replay(options: argparse.Namespace) -> int:
             "give the panel's own URL, such as i2c://1/0x3c?chip=ssd1306: nobody records serial links here"
         )
     find_look(options.look)
-    chip = _simulated(wanted)[1]
-    chip.history = _HISTORY
+    chip = simulated_chip(wanted.controller, wanted.module, history=_HISTORY)
     transcript = Transcript(chip, print) if options.transcript else None
     told = replay(
         options.log,

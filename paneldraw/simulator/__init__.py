@@ -13,9 +13,7 @@ from .lcd import PCD8544, ST7565, ST7567, UC1609, UC1701
 from .log import Log
 from .looks import LOOKS, Look, find_look, image
 from .max7219 import MAX7219
-from .port import SerialPort
 from .recorder import contact_sheet, save
-from .rig import Rig, RigPanel, simulated_bus, simulated_chip
 from .sh110x import CH1115, SH1106, SH1107, SH1122
 from .spi import SPIBus
 from .ssd130x import SSD1305, SSD1306, SSD1309, SSD1312, SSD1315, SSD1316
@@ -27,7 +25,9 @@ from .views import open_view
 
 if TYPE_CHECKING:
     from .player import Replayed, replay
+    from .port import SerialPort
     from .preload import Preload, PreloadUnavailableError
+    from .rig import Rig, RigPanel, simulated_bus, simulated_chip
     from .web import serve
 
 __all__ = [
@@ -84,11 +84,15 @@ __all__ = [
 
 #: Names that are imported only where somebody asks for them, with what they need: asyncio, zipfile, subprocess.
 _LATER = {
-    "serve": "web",
-    "replay": "player",
-    "Replayed": "player",
-    "Preload": "preload",
-    "PreloadUnavailableError": "preload",
+    name: module
+    for module, names in {
+        "web": ("serve",),
+        "player": ("Replayed", "replay"),
+        "port": ("SerialPort",),
+        "preload": ("Preload", "PreloadUnavailableError"),
+        "rig": ("Rig", "RigPanel", "simulated_bus", "simulated_chip"),
+    }.items()
+    for name in names
 }
 
 

@@ -516,6 +516,8 @@ class I2CBus(Wire):
             except OSError as error:
                 if error.errno != codes.EAGAIN or not attempt:
                     raise
+            finally:
+                self._rest()
 
     def _try(self, parts: Sequence[Message]) -> None:
         with self._lock:

@@ -274,7 +274,7 @@ def _new_folder(given: Path | None) -> Path:
         given.mkdir(exist_ok=True)
     quick = [_MEMORY] if os.access(_MEMORY, os.W_OK | os.X_OK) else []
     for place in (*quick, None, "/tmp"):
-        folder = tempfile.mkdtemp(prefix="paneldraw-", dir=place) if given is None else str(given)
+        folder = tempfile.mkdtemp(prefix=f"paneldraw-{os.getpid()}-", dir=place) if given is None else str(given)
         if len(os.fsencode(folder)) <= _LONGEST and not set(folder) & set(" :\t\n$"):
             return Path(folder)
         os.rmdir(folder)

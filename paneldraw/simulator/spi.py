@@ -205,8 +205,9 @@ class SPIBus(Wire):
             self._settle(seconds * sent / len(payload) if payload else seconds, sent)
             if self.log:
                 self.log.write(self._heard(payload[:sent], got))
-            if fault and fault.errno:
-                raise os_error(fault.errno)
+        self._rest()
+        if fault and fault.errno:
+            raise os_error(fault.errno)
 
     @property
     def _listening(self) -> bool:

@@ -54,12 +54,21 @@ class Wire:
         self.messages = 0
         self.seconds = 0.0
         self.realtime = False
-        self._timer = timer
-        self._started = timer() if timer else 0.0
+        self.timer = timer
         self._now = 0.0
         self._faults: list[Fault] = []
         self._lock = threading.RLock()
         self.log: Log | None = None
+
+    @property
+    def timer(self) -> Callable[[], float] | None:
+        """Where the time comes from; None is the wire's own."""
+        return self._timer
+
+    @timer.setter
+    def timer(self, timer: Callable[[], float] | None) -> None:
+        self._timer = timer
+        self._started = timer() if timer else 0.0
 
     def idle(self, seconds: float) -> None:
         """Let time pass with the wire at rest, as a script's pause does; the next frame is stamped that much later."""
@@ -76,13 +85,14 @@ class Wire:
     def _elapse(self, busy: float) -> float:
         """Count time that the wire was busy; return what time it is now."""
         self.seconds += busy
-        self._now += busy
-        if self._timer:
-            passed = self._timer() - self._started
-            if self.realtime and self._now > passed:
-                time.sleep(self._now - passed)
-            self._now = max(self._now, passed)
+        passed = self._timer() - self._started if self._timer else 0.0
+        self._now = max(self._now, passed) + busy if self.realtime else max(self._now + busy, passed)
         return self._now
+
+    def _rest(self) -> None:
+        """In real time, wait until the wire has carried what it was given; who holds the lock keeps viewers waiting."""
+        if self.realtime and self._timer:
+            time.sleep(max(0.0, self._now - (self._timer() - self._started)))
 
     def _pass_time(self) -> None:
         """Tell the chips what time it is."""

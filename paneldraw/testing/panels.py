@@ -90,7 +90,7 @@ class SimPanel(Panel):
     def power_cycle(self) -> None:
         """Take the module's supply away and give it back, a while ago: the next show that can notice it does."""
         self.chip.power_cycle()
-        self._looked = float("-inf")
+        self._driver.look_again()
 
 
 class SerialPanel(SimPanel):
@@ -167,5 +167,5 @@ def _rig(where: str | Iterable[str]) -> Rig:
     """Make simulated panels whose time is that of the wire alone."""
     rig = Rig([where] if isinstance(where, str) else where)
     for panel in rig.panels:
-        panel.bus._timer = None
+        panel.bus.timer = None
     return rig
