@@ -124,6 +124,6 @@ def test_the_main_objects_are_among_them():
         "paneldraw.framebuffer.framebuffer.Framebuffer.text",
         "paneldraw.framebuffer.framebuffer.Framebuffer.line",
         "paneldraw.raster.coverage.Supersample",
-        "paneldraw.text.Font",
-        "paneldraw.text.render",
+        "paneldraw.text.font.Font",
+        "paneldraw.text.layout.render",
     } <= set(WITH_EXAMPLE)

@@ -1,4 +1,4 @@
-"""Fonts and text layout: which pixels a text covers, never how they are painted."""
+"""Fonts: what draws the characters of a line of text."""
 
 from __future__ import annotations
 
@@ -17,11 +17,6 @@ if TYPE_CHECKING:
 
 TAB = 4
 """Columns between tab stops, in characters: a narrow panel has about twenty of them."""
-
-REPLACEMENT = "\N{REPLACEMENT CHARACTER}"
-"""The box that stands for a character the built-in font has no picture of."""
-
-_ANCHORS = {h + v for h in "lmr" for v in "atmsbd"}
 
 
 class _Face(Protocol):
@@ -71,12 +66,20 @@ class Font:
     _factor: int = field(default=1, repr=False)
 
     @staticmethod
-    def builtin() -> Font:
-        """Return the font that is used where none is named: 6x8 cells, ASCII, arrows and the signs of measurement.
+    def builtin(name: str = "6x8") -> Font:
+        """Return a font that is part of this package.
 
-        A character that it does not have is drawn as a box.
+        Parameters
+        ----------
+        name : {"6x8"}, default "6x8"
+            The default is what text is written with where no font is named: cells of 6 x 8 pixels.
+
+        Raises
+        ------
+        ValueError
+            If there is no such font.
         """
-        return _builtin()
+        return _builtin(name)
 
     @staticmethod
     def truetype(path: str | os.PathLike[str], size: float, *, antialias: bool = False) -> Font:
@@ -202,95 +205,23 @@ class Font:
         >>> Font.builtin().measure("two\\nlines")
         (29, 16)
         """
-        covers = [self._face.line(line) for line in _lines(text)]
+        covers = [self._face.line(line) for line in split_lines(text)]
         return max(cover.shape[1] for cover in covers), self.height * len(covers)
-
-
-def render(text: str, font: Font | None = None, anchor: str = "lt") -> tuple[NDArray[np.uint8], int, int]:
-    """Return what a text covers, and where that lies from the point it is anchored at.
-
-    Parameters
-    ----------
-    text : str
-        One or more lines, separated by ``"\\n"``. Tabs reach to the next fourth character.
-    font : Font, optional
-        Default: the built-in one.
-    anchor : str, default "lt"
-        Which pixel of the text's box is meant by (x, y), in Pillow's two letters. First ``l`` the leftmost, ``m`` the
-        middle or ``r`` the rightmost column; lines are flush with that side. Then ``t`` or ``a`` the topmost, ``m``
-        the middle, ``b`` or ``d`` the lowest row, or ``s`` the row that the first line stands on.
-
-    Returns
-    -------
-    coverage : numpy.ndarray
-        uint8 of shape (height, width), C-contiguous: 0 where there is no ink, 255 where there is, shades between where
-        the font is anti-aliased.
-    dx, dy : int
-        From the anchored point to the top-left pixel of the coverage.
-
-    Raises
-    ------
-    TypeError
-        If the text is not a string or the font not a Font.
-    ValueError
-        If there is no such anchor.
-
-    Examples
-    --------
-    >>> from paneldraw.text import render
-    >>> coverage, dx, dy = render("Hi!", anchor="rb")
-    >>> coverage.shape, dx, dy
-    ((8, 17), -16, -7)
-    """
-    font = font_of(font)
-    offset(anchor, 0, 0, 0)
-    lines = _lines(text)
-    if len(lines) == 1:
-        coverage = np.ascontiguousarray(font._face.line(lines[0]))
-    else:
-        coverage = _stack([font._face.line(line) for line in lines], font.height, anchor[0])
-    height, width = coverage.shape
-    return coverage, *offset(anchor, width, height, font.baseline)
 
 
 def font_of(font: Any) -> Font:
     """The font that an argument means."""
     if font is None:
-        return _builtin()
+        return _builtin("6x8")
     if not isinstance(font, Font):
         raise TypeError(f"font must be a Font, such as Font.truetype(path, size), not {type(font).__name__}")
     return font
 
 
-def offset(anchor: str, width: int, height: int, baseline: int) -> tuple[int, int]:
-    """From the point where a text is anchored to the top-left pixel of its box of `width` x `height` pixels."""
-    if anchor not in _ANCHORS:
-        raise ValueError(f"anchor must be one of l, m, r and one of a, t, m, s, b, d, such as 'lt', not {anchor!r}")
-    horizontal, vertical = anchor[0], anchor[1]
-    return -_reach(horizontal, width), -baseline if vertical == "s" else -_reach(vertical, height)
-
-
-def _lines(text: str) -> list[str]:
+def split_lines(text: str) -> list[str]:
     if not isinstance(text, str):
         raise TypeError(f"text must be a string, not {type(text).__name__}; str(...) makes one")
     return text.replace("\r\n", "\n").expandtabs(TAB).split("\n")
-
-
-def _reach(side: str, size: int) -> int:
-    """Pixels from the first of a row of ``size`` pixels to the one that an anchor's letter names."""
-    if side in "rbd":
-        return max(size - 1, 0)
-    return max(size - 1, 0) // 2 if side == "m" else 0
-
-
-def _stack(covers: list[NDArray[np.uint8]], height: int, side: str) -> NDArray[np.uint8]:
-    """Set lines one below the other, flush with a side."""
-    width = max(cover.shape[1] for cover in covers)
-    stacked = np.zeros((height * len(covers), width), np.uint8)
-    for row, cover in enumerate(covers):
-        left = _reach(side, width) - _reach(side, cover.shape[1])
-        stacked[row * height : (row + 1) * height, left : left + cover.shape[1]] = cover
-    return stacked
 
 
 class _Indices(dict[int, int]):
@@ -366,29 +297,15 @@ def _draw(
 
 
 @functools.cache
-def _builtin() -> Font:
-    from .font_6x8 import GLYPHS
+def _builtin(name: str) -> Font:
+    from paneldraw.text.builtin import strike
 
-    height, advance = 8, 6
-    indices, table = _read_picture(GLYPHS, height, advance)
-    gap = 1
-    glyphs = Glyphs(list(indices), table.transpose(1, 0, 2), [advance] * len(indices), gap)
-    face = _CellFace(indices, table, gap)
-    return Font(f"{advance}x{height}", advance - gap, height, advance, height - 2, face, glyphs)
-
-
-def _read_picture(picture: str, height: int, advance: int) -> tuple[_Indices, NDArray[np.uint8]]:
-    """Read a font drawn in ``#`` and ``.``: bands of cells, each under a line that names their characters.
-
-    The picture of what is missing comes first, whatever its place in the drawing.
-    """
-    rows = picture.strip("\n").split("\n")
-    names: list[str] = []
-    bands: list[NDArray[Any]] = []
-    for top in range(0, len(rows), height + 1):
-        cells = np.frombuffer("".join(row + " " for row in rows[top + 1 : top + 1 + height]).encode(), np.uint8)
-        bands.append((cells == ord("#")).reshape(height, -1, advance + 1)[:, :, :advance])
-        names.extend(rows[top][2 :: advance + 1])
-    order = sorted(range(len(names)), key=lambda column: names[column] != REPLACEMENT)
-    indices = _Indices((ord(names[column]), index) for index, column in enumerate(order))
-    return indices, np.concatenate(bands, axis=1)[:, order].astype(np.uint8) * np.uint8(255)
+    drawn = strike(name)
+    pictures = sorted(drawn.pictures.items(), key=lambda item: item[0] != drawn.missing)
+    codes = [code for code, _ in pictures]
+    advance = pictures[0][1].advance
+    table = np.stack([picture.ink for _, picture in pictures], axis=1) * np.uint8(255)
+    glyphs = Glyphs(codes, table.transpose(1, 0, 2), [advance] * len(codes), drawn.gap)
+    face = _CellFace(_Indices(zip(codes, range(len(codes)), strict=True)), table, drawn.gap)
+    height = drawn.ascent + drawn.descent
+    return Font(name, advance - drawn.gap, height, advance, drawn.ascent - 1, face, glyphs)

@@ -1,0 +1,12 @@
+"""Fonts and text layout: which pixels a text covers, never how they are painted."""
+
+from __future__ import annotations
+
+from paneldraw.text.font import TAB as TAB
+from paneldraw.text.font import Font
+from paneldraw.text.font import font_of as font_of
+from paneldraw.text.font import split_lines as split_lines
+from paneldraw.text.layout import offset as offset
+from paneldraw.text.layout import render
+
+__all__ = ["Font", "render"]
