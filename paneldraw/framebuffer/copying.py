@@ -7,7 +7,7 @@ import cython
 from cython.cimports.paneldraw.framebuffer.arguments import BEYOND, is_word, level, near_pixel, top_left, uint8s
 from cython.cimports.paneldraw.raster.blit import Picture, blit, mix, paint_grays, scroll
 from cython.cimports.paneldraw.raster.glyphs import Glyphs, one_line, stamp, write
-from cython.cimports.paneldraw.raster.surface import Surface
+from cython.cimports.paneldraw.raster.surface import ADD, XOR, Surface
 
 from paneldraw.framebuffer import pictures
 from paneldraw.framebuffer.arguments import size
@@ -25,7 +25,15 @@ def write_text(coverage, s, x, y, font, anchor):
     top: cython.longlong = top_left("y", y)
     font = _layout.font_of(font)
     glyphs: Glyphs = font._glyphs
-    if glyphs is None or type(s) is not str or not one_line(s):
+    simple: cython.bint = glyphs is not None and type(s) is str and one_line(s)
+    if simple:
+        if not s.isascii():
+            s = _layout.composed(s)
+        if coverage.surface.op == XOR or coverage.surface.op == ADD:
+            # Where letters overlap, a pixel is painted once all the same.
+            glyphs.advance(s)
+            simple = not glyphs.overlapping
+    if not simple:
         shares, dx, dy = _layout.render(s, font, anchor)
         height, width = shares.shape
         mask = bytearray(shares.tobytes())
@@ -33,8 +41,10 @@ def write_text(coverage, s, x, y, font, anchor):
         return
     # More is as much: one pixel of the font, beside it or not, is all there is to see.
     factor: cython.longlong = min(font._factor, 1 << 31)
-    if not is_word(anchor, "lt"):
-        dx, dy = _layout.offset(anchor, glyphs.measure(s) * font._factor, font.height, font.baseline)
+    if not is_word(anchor, "la"):
+        lit = glyphs.bounds(s) if not font._cells else (0, 0, 0, 0)
+        scale = font._factor
+        dx, dy = _layout.offset(anchor, font, glyphs.measure(s) * scale, lit[1] * scale, lit[3] * scale)
         left += max(dx, -BEYOND)
         top += max(dy, -BEYOND)
     write(coverage.surface, glyphs, s, left, top, factor)

@@ -857,7 +857,7 @@ class Framebuffer:
         c: int | None = None,
         *,
         font: Font | None = None,
-        anchor: str = "lt",
+        anchor: str = "la",
         op: str = "over",
     ) -> None:
         """Write text.
@@ -872,9 +872,10 @@ class Framebuffer:
             Of the characters' lit pixels; the others stay as they are.
         font : Font, optional
             Default: the built-in font of 6 x 8 pixels a character.
-        anchor : str, default "lt"
-            Which pixel of the text's box (x, y) means: ``l``, ``m`` or ``r``, then ``t``, ``m``, ``b`` or ``s`` (the
-            row that the first line stands on). See `paneldraw.text.render`.
+        anchor : str, default "la"
+            Which pixel of the text (x, y) means, in Pillow's letters: ``l``, ``m`` or ``r``; then ``a`` and ``d`` for
+            the top and lowest row of the line, ``t`` and ``b`` for those that are lit, ``m``, or ``s`` for the row that
+            the first line stands on. See `paneldraw.text.render`.
         op : {"over", "xor", "add", "max", "clear"}
 
         Raises

@@ -2,7 +2,9 @@ from paneldraw.raster.coverage cimport Coverage
 from paneldraw.raster.surface cimport Surface
 
 cdef class Glyphs:
-    cdef readonly int height, width, gap
+    cdef readonly int left, right, top, bottom, gap
+    cdef readonly bint overlapping
+    cdef object picture_of
     cdef object kept
     cdef int *firsts
     cdef short *spans
@@ -10,8 +12,10 @@ cdef class Glyphs:
     cdef int[256] near
     cdef dict far
 
+    cdef object _point(self)
     cdef int find(self, unsigned int code) except? -1
-    cdef int measure(self, str text) except? -1
+    cdef int add(self, unsigned int code) except? -1
+    cdef Py_ssize_t advance(self, str text) except? -1
 
 cdef bint one_line(str text) except? -1
 cdef object write(Surface surface, Glyphs glyphs, str text, long long x, long long y, long long factor)

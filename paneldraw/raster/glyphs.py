@@ -8,63 +8,140 @@ from typing import Any
 import cython
 import numpy as np
 from cython.cimports.paneldraw.raster.paint import inverse_of, paint_coverage
-from cython.cimports.paneldraw.raster.surface import near
+from cython.cimports.paneldraw.raster.surface import OVER, Surface, near
+
+
+#: Of characters that a font does not have, how many are remembered to be missing.
+REMEMBERED = 65536
+
+#: What the numbers of a picture are limited to.
+LARGEST = 16383
 
 
 @cython.final
 @cython.auto_pickle(False)
 @cython.cclass
 class Glyphs:
-    """The characters of a font of one bit a pixel, each as the spans of its rows.
+    """The characters of a font of one bit a pixel, each as the spans of its rows, kept from its first use on.
 
     Parameters
     ----------
-    codes : sequence of int
-        Code points of the characters. The first one stands for all that are not among them.
-    pictures : ndarray, shape (characters, height, width)
-        Where each is lit, in the order of `codes`.
-    advances : sequence of int
-        Columns from each character to the next.
+    picture_of : callable
+        Takes a code point. Returns where it is lit, as an array of shape (height, width), the column of the picture's
+        left edge from the pen, its top row from the top of the line, and the columns from this pen to the next; or
+        None if the font does not have it.
+    missing : tuple
+        The picture of what stands for characters that the font does not have.
     gap : int
         Columns of the last advance that do not belong to a line.
     """
 
-    def __init__(self, codes: Any, pictures: Any, advances: Any, gap: cython.int) -> None:
-        k: cython.int
-        count, height, width = pictures.shape
-        self.height = height
-        self.width = width
+    def __init__(self, picture_of: Any, missing: Any, gap: cython.int) -> None:
+        code: cython.int
         self.gap = gap
+        self.left = self.right = self.top = self.bottom = 0
+        self.overlapping = False
+        self.picture_of = picture_of
         # Of each span row, first column, and the column behind it; character k has those from firsts[k] on.
-        padded = np.zeros((count, height, width + 2), np.int8)
-        padded[:, :, 1:-1] = pictures != 0
-        edges = np.diff(padded, axis=2)
+        self.kept = (array("i", [0]), array("h"), array("h"))
+        self.far = {}
+        if not cython.compiled:
+            self.near = [-1] * 256
+        for code in range(256):
+            self.near[code] = -1
+        self._keep(missing)
+
+    def _keep(self, picture):
+        """Add the picture of a character."""
+        ink, left, top, advance = picture
+        height, width = ink.shape
+        if max(abs(left), abs(top), abs(advance), width, height) > LARGEST:
+            raise ValueError(f"the picture of a character must be within {LARGEST} pixels, and is {width} x {height}")
+        padded = np.zeros((height, width + 2), np.int8)
+        padded[:, 1:-1] = ink != 0
+        edges = np.diff(padded, axis=1)
         begins, ends = np.argwhere(edges > 0), np.argwhere(edges < 0)
-        spans = np.column_stack((begins[:, 1:], ends[:, 2]))
-        firsts = np.searchsorted(begins[:, 0], np.arange(count + 1))
-        self.kept = (array("i", firsts.tolist()), array("h", spans.ravel().tolist()), array("h", advances))
+        firsts, spans, advances = self.kept
+        spans.extend((np.column_stack((begins, ends[:, 1])) + (top, left, left)).ravel().tolist())
+        firsts.append(len(spans) // 3)
+        advances.append(advance)
+        self._point()
+        self.left, self.right = min(self.left, left), max(self.right, left + width)
+        self.top, self.bottom = min(self.top, top), max(self.bottom, top + height)
+        lit = padded.any(axis=0).nonzero()[0]
+        if len(lit):
+            self.overlapping |= bool(lit.min() - 1 + left < 0 or lit.max() + left > advance)
+
+    def _point(self):
+        """Look again where the arrays are, which may move when they grow."""
         if cython.compiled:
             self.firsts = cython.cast(cython.p_int, _address(self.kept[0]))
             self.spans = cython.cast(cython.p_short, _address(self.kept[1]))
             self.advances = cython.cast(cython.p_short, _address(self.kept[2]))
         else:
             self.firsts, self.spans, self.advances = self.kept
-            self.near = [0] * 256
-        self.far = {code: k for k, code in enumerate(codes)}
-        for k in range(256):
-            self.near[k] = self.far.get(k, 0)
+
+    def add(self, code):
+        """Ask for the picture of a character."""
+        k: cython.int = 0
+        picture = self.picture_of(code)
+        if picture is not None:
+            k = len(self.kept[2])
+            self._keep(picture)
+        if code < 256:
+            self.near[code] = k
+        elif k or len(self.far) < REMEMBERED:
+            self.far[code] = k
+        return k
 
     def find(self, code):
         """Which of the characters a code point is."""
-        return self.near[code] if code < 256 else self.far.get(code, 0)
+        k: cython.int = self.near[code] if code < 256 else self.far.get(code, -1)
+        return k if k >= 0 else self.add(code)
+
+    def advance(self, text):
+        """Columns from the pen at the start of a line to the pen at its end."""
+        columns: cython.longlong = 0
+        k: cython.int
+        character: cython.Py_UCS4
+        for character in text:
+            k = self.find(ord(character))
+            columns += self.advances[k]
+        return columns
 
     def measure(self, text):
         """Columns of a line of text."""
-        columns: cython.int = -self.gap
+        return max(self.advance(text) - self.gap, 0)
+
+    def bounds(self, text):
+        """Return left, top, right, bottom of what is lit in a line, from its pen and top; all 0 where nothing is."""
         character: cython.Py_UCS4
+        k: cython.int
+        i: cython.int
+        x: cython.longlong = 0
+        left: cython.longlong = 1 << 60
+        right: cython.longlong = -(1 << 60)
+        top: cython.longlong = left
+        bottom: cython.longlong = right
         for character in text:
-            columns += self.advances[self.find(ord(character))]
-        return max(columns, 0)
+            k = self.find(ord(character))
+            for i in range(3 * self.firsts[k], 3 * self.firsts[k + 1], 3):
+                top = min(top, self.spans[i])
+                bottom = max(bottom, self.spans[i] + 1)
+                left = min(left, x + self.spans[i + 1])
+                right = max(right, x + self.spans[i + 2])
+            x += self.advances[k]
+        if left >= right:
+            left = right = top = bottom = 0
+        return left, top, right, bottom
+
+    def cover(self, text, x, y, width, height):
+        """Return the coverage of a line, its pen at (x, y), in `width` x `height` pixels: rows of 0 and 255."""
+        memory = bytearray(width * height)
+        surface: Surface = Surface(memory, 0, width, width, height, 255)
+        surface.paint_with(255, OVER)
+        write(surface, self, text, x, y, 1)
+        return memory
 
 
 @cython.cfunc
@@ -83,7 +160,7 @@ def one_line(text):
 
 
 def write(surface, glyphs, text, x, y, factor):
-    """Paint a line of text, its top-left pixel at (x, y), each pixel of the font `factor` x `factor` large."""
+    """Paint a line of text, its pen at x and its top at y, each pixel of the font `factor` x `factor` large."""
     character: cython.Py_UCS4
     k: cython.int
     i: cython.int
@@ -92,12 +169,16 @@ def write(surface, glyphs, text, x, y, factor):
     left: cython.longlong
     right: cython.longlong
     top: cython.longlong
-    spans: cython.p_short = glyphs.spans
-    if y >= surface.bottom or y + glyphs.height * factor <= surface.top:
-        return
+    spans: cython.p_short
     for character in text:
         k = glyphs.find(ord(character))
-        if x < surface.right and x + glyphs.width * factor > surface.left:
+        spans = glyphs.spans
+        if (
+            x + glyphs.left * factor < surface.right
+            and x + glyphs.right * factor > surface.left
+            and y + glyphs.top * factor < surface.bottom
+            and y + glyphs.bottom * factor > surface.top
+        ):
             for i in range(3 * glyphs.firsts[k], 3 * glyphs.firsts[k + 1], 3):
                 top = y + spans[i] * factor
                 left = min(max(x + spans[i + 1] * factor, surface.left), surface.right)

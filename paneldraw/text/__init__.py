@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from paneldraw.text.characters import composed as composed
 from paneldraw.text.font import TAB as TAB
 from paneldraw.text.font import Font
 from paneldraw.text.font import font_of as font_of

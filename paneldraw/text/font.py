@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 import functools
+import math
 import os
-from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Protocol
-
-import numpy as np
+from dataclasses import dataclass, field, replace
+from itertools import islice
+from typing import TYPE_CHECKING, Any
 
 from paneldraw.raster.glyphs import Glyphs
+from paneldraw.text.characters import composed
+from paneldraw.text.faces import ChainFace, Face, FreeTypeFace, ScaledFace, StrikeFace
+from paneldraw.text.strike import Picture, Strike, box
 
 if TYPE_CHECKING:
+    import numpy as np
     from numpy.typing import NDArray
     from PIL import ImageFont
 
@@ -19,18 +23,11 @@ TAB = 4
 """Columns between tab stops, in characters: a narrow panel has about twenty of them."""
 
 
-class _Face(Protocol):
-    """What draws the characters of a font."""
-
-    def line(self, text: str) -> NDArray[np.uint8]:
-        """Coverage 0 ... 255 of one line of text, an array of shape (height, width)."""
-
-
 @dataclass(frozen=True, slots=True, eq=False)
 class Font:
     """A typeface at one size. Immutable; a font can be shared by panels and threads.
 
-    Scripts use the built-in font by naming none, or make one with :meth:`truetype` or :meth:`from_pillow`.
+    Scripts use the built-in font by naming none, or make one with :meth:`find`, :meth:`load` or :meth:`from_pillow`.
 
     Attributes
     ----------
@@ -60,10 +57,12 @@ class Font:
     height: int
     advance: int
     baseline: int
-    _face: _Face = field(repr=False)
+    _face: Face = field(repr=False)
     # Of a font of one bit a pixel that sets its characters side by side: them, and how many times larger they are here.
     _glyphs: Glyphs | None = field(default=None, repr=False)
     _factor: int = field(default=1, repr=False)
+    # Whether the characters fill a cell each, so that the box of a text is its cells and not its ink.
+    _cells: bool = field(default=False, repr=False)
 
     @staticmethod
     def builtin(name: str = "6x8") -> Font:
@@ -135,19 +134,40 @@ class Font:
         """
         from PIL import ImageFont
 
-        face: _Face
         if isinstance(font, ImageFont.FreeTypeFont):
-            ascent, descent = font.getmetrics()
-            face = _FreeTypeFace(font, ascent, ascent + descent, "L" if antialias else "1")
-            known = " ".join(part for part in font.getname() if part)
-        elif isinstance(font, ImageFont.ImageFont):
-            ascent, descent = int(font.getbbox("Ag")[3]), 0
-            face = _BitmapFace(font, ascent)
-            known = "bitmap"
+            return _outline(font, name, antialias)
+        if isinstance(font, ImageFont.ImageFont):
+            from paneldraw.text.formats.pil import strike_of
+
+            return of_strike(strike_of(font, name or "bitmap"))
+        raise TypeError(f"font must be an ImageFont of Pillow's, not {type(font).__name__}")
+
+    def with_fallback(self, *fonts: Font) -> Font:
+        """Return the font with others to look in for the characters that it does not have, in that order.
+
+        Their letters stand on the same baseline. What none of them has is drawn as a box.
+
+        Raises
+        ------
+        TypeError
+            If one of them is not a Font.
+
+        Examples
+        --------
+        >>> small = Font.builtin().with_fallback(Font.builtin().scaled(2))
+        >>> small.height
+        8
+        """
+        others = [(other._face, other.baseline + 1) for other in map(font_of, fonts)]
+        if isinstance(self._face, StrikeFace) and self._factor == 1:
+            face = StrikeFace(self._face.strike, (*self._face.fallbacks, *others))
+            return replace(self, _face=face, _glyphs=face.glyphs)
+        if isinstance(self._face, ChainFace):
+            chain = ChainFace((*self._face.faces, *others), self._face.missing)
         else:
-            raise TypeError(f"font must be an ImageFont of Pillow's, not {type(font).__name__}")
-        widest = max(face.line(chr(code)).shape[1] for code in range(0x20, 0x7F))
-        return Font(name or known, widest, ascent + descent, 0, ascent - 1, face)
+            frame = box(max(self.width - 1, 1), self.baseline + 1, self.baseline + 1)
+            chain = ChainFace(((self._face, self.baseline + 1), *others), frame)
+        return replace(self, _face=chain, _glyphs=None)
 
     def scaled(self, factor: int) -> Font:
         """Return the font with each pixel a square of `factor` x `factor` pixels.
@@ -164,15 +184,15 @@ class Font:
         """
         if not (isinstance(factor, int) and factor >= 1):
             raise ValueError(f"factor must be a whole number of 1 or more, not {factor!r}")
-        return Font(
-            f"{self.name} x{factor}",
-            self.width * factor,
-            self.height * factor,
-            self.advance * factor,
-            (self.baseline + 1) * factor - 1,
-            _ScaledFace(self._face, factor),
-            self._glyphs,
-            self._factor * factor,
+        return replace(
+            self,
+            name=f"{self.name} x{factor}",
+            width=self.width * factor,
+            height=self.height * factor,
+            advance=self.advance * factor,
+            baseline=(self.baseline + 1) * factor - 1,
+            _face=ScaledFace(self._face, factor),
+            _factor=self._factor * factor,
         )
 
     def glyph(self, char: str) -> NDArray[np.uint8]:
@@ -195,7 +215,9 @@ class Font:
         """
         if len(char) != 1:
             raise ValueError(f"char must be one character, not {char!r}")
-        return self._face.line(char)
+        from paneldraw.text.layout import render
+
+        return render(char, self)[0]
 
     def measure(self, text: str) -> tuple[int, int]:
         """Return (width, height) in pixels of a text, which may have several lines.
@@ -205,8 +227,9 @@ class Font:
         >>> Font.builtin().measure("two\\nlines")
         (29, 16)
         """
-        covers = [self._face.line(line) for line in split_lines(text)]
-        return max(cover.shape[1] for cover in covers), self.height * len(covers)
+        lines = split_lines(text)
+        width = max(self._face.line(line).advance for line in lines)
+        return math.ceil(width), self.height * len(lines)
 
 
 def font_of(font: Any) -> Font:
@@ -219,93 +242,49 @@ def font_of(font: Any) -> Font:
 
 
 def split_lines(text: str) -> list[str]:
+    """The lines of a text, tabs as spaces, letters and their marks composed."""
     if not isinstance(text, str):
         raise TypeError(f"text must be a string, not {type(text).__name__}; str(...) makes one")
+    if not text.isascii():
+        text = composed(text)
     return text.replace("\r\n", "\n").expandtabs(TAB).split("\n")
 
 
-class _Indices(dict[int, int]):
-    """Code point to column of the glyph table; the first one is for whatever the font does not have."""
-
-    def __missing__(self, code: int) -> int:
-        return 0
-
-
-class _CellFace:
-    """Characters in cells of one size: a line is one look-up in a table of shape (height, characters, advance)."""
-
-    def __init__(self, indices: _Indices, table: NDArray[np.uint8], gap: int) -> None:
-        self._indices, self._table, self._gap = indices, table, gap
-
-    def line(self, text: str) -> NDArray[np.uint8]:
-        height, _, advance = self._table.shape
-        picks = np.frombuffer(text.translate(self._indices).encode("utf-16-le"), np.uint16)
-        width = len(picks) * advance
-        return self._table.take(picks, axis=1).reshape(height, width)[:, : max(width - self._gap, 0)]
-
-
-class _ScaledFace:
-    """Another face with larger pixels."""
-
-    def __init__(self, face: _Face, factor: int) -> None:
-        self._face, self._factor = face, factor
-
-    def line(self, text: str) -> NDArray[np.uint8]:
-        return self._face.line(text).repeat(self._factor, axis=0).repeat(self._factor, axis=1)
+def of_strike(strike: Strike) -> Font:
+    """Return the font that a bitmap font is."""
+    face = StrikeFace(strike)
+    pictures = strike.pictures
+    found: list[Picture] = [pictures[code] for code in range(0x20, 0x7F) if code in pictures]
+    found = found or [pictures[code] for code in islice(pictures, 95)]
+    advances = {int(picture.advance) for picture in found} or {0}
+    height = strike.ascent + strike.descent
+    return Font(
+        strike.name,
+        max(advances) - strike.gap,
+        height,
+        max(advances) if len(advances) == 1 else 0,
+        strike.ascent - 1,
+        face,
+        face.glyphs,
+        _cells=strike.cells,
+    )
 
 
-class _FreeTypeFace:
-    """An outline font; a line is drawn whole, so that kerning and ligatures come out as the font has them."""
+def _outline(font: ImageFont.FreeTypeFont, name: str | None, antialias: bool) -> Font:
+    """Return the font that Pillow's FreeType draws."""
+    from paneldraw.text.outline import characters_of
 
-    def __init__(self, font: ImageFont.FreeTypeFont, ascent: int, height: int, mode: str) -> None:
-        self._font, self._ascent, self._height, self._mode = font, ascent, height, mode
-
-    def line(self, text: str) -> NDArray[np.uint8]:
-        left, _, right, _ = self._font.getbbox(text, self._mode, anchor="ls")
-        start = min(int(np.floor(left)), 0)
-        end = int(np.ceil(max(right, self._font.getlength(text, self._mode))))
-        return _draw(text, self._font, (end - start, self._height), self._mode, (-start, self._ascent), anchor="ls")
-
-
-class _BitmapFace:
-    """A bitmap font in Pillow's own format."""
-
-    def __init__(self, font: ImageFont.ImageFont, height: int) -> None:
-        self._font, self._height = font, height
-
-    def line(self, text: str) -> NDArray[np.uint8]:
-        width = int(self._font.getbbox(text)[2]) if text else 0
-        return _draw(text, self._font, (width, self._height), "1", (0, 0))
-
-
-def _draw(
-    text: str,
-    font: ImageFont.FreeTypeFont | ImageFont.ImageFont,
-    size: tuple[int, int],
-    mode: str,
-    origin: tuple[int, int],
-    anchor: str | None = None,
-) -> NDArray[np.uint8]:
-    from PIL import Image, ImageDraw
-
-    image = Image.new("L", size)
-    if text:
-        draw = ImageDraw.Draw(image)
-        draw.fontmode = mode
-        draw.text(origin, text, 255, font, anchor=anchor)
-    return np.array(image, np.uint8)
+    ascent, descent = font.getmetrics()
+    face = FreeTypeFace(font, characters_of(font), antialias)
+    like = font.getbbox("H", "1", anchor="ls")
+    frame = box(int(like[2]) - 1, -int(like[1]), ascent)
+    widest = max(math.ceil(font.getlength(chr(code), "1")) for code in range(0x20, 0x7F))
+    known = " ".join(part for part in font.getname() if part)
+    return Font(name or known, widest, ascent + descent, 0, ascent - 1, ChainFace([(face, ascent)], frame))
 
 
 @functools.cache
 def _builtin(name: str) -> Font:
     from paneldraw.text.builtin import strike
 
-    drawn = strike(name)
-    pictures = sorted(drawn.pictures.items(), key=lambda item: item[0] != drawn.missing)
-    codes = [code for code, _ in pictures]
-    advance = pictures[0][1].advance
-    table = np.stack([picture.ink for _, picture in pictures], axis=1) * np.uint8(255)
-    glyphs = Glyphs(codes, table.transpose(1, 0, 2), [advance] * len(codes), drawn.gap)
-    face = _CellFace(_Indices(zip(codes, range(len(codes)), strict=True)), table, drawn.gap)
-    height = drawn.ascent + drawn.descent
-    return Font(name, advance - drawn.gap, height, advance, drawn.ascent - 1, face, glyphs)
+    return of_strike(strike(name))

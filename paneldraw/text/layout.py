@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -11,10 +12,12 @@ from paneldraw.text.font import Font, font_of, split_lines
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from paneldraw.text.strike import Picture
+
 _ANCHORS = {h + v for h in "lmr" for v in "atmsbd"}
 
 
-def render(text: str, font: Font | None = None, anchor: str = "lt") -> tuple[NDArray[np.uint8], int, int]:
+def render(text: str, font: Font | None = None, anchor: str = "la") -> tuple[NDArray[np.uint8], int, int]:
     """Return what a text covers, and where that lies from the point it is anchored at.
 
     Parameters
@@ -23,16 +26,19 @@ def render(text: str, font: Font | None = None, anchor: str = "lt") -> tuple[NDA
         One or more lines, separated by ``"\\n"``. Tabs reach to the next fourth character.
     font : Font, optional
         Default: the built-in one.
-    anchor : str, default "lt"
-        Which pixel of the text's box is meant by (x, y), in Pillow's two letters. First ``l`` the leftmost, ``m`` the
-        middle or ``r`` the rightmost column; lines are flush with that side. Then ``t`` or ``a`` the topmost, ``m``
-        the middle, ``b`` or ``d`` the lowest row, or ``s`` the row that the first line stands on.
+    anchor : str, default "la"
+        Which pixel of the text is meant by (x, y), in Pillow's two letters; its lines between pixels name here the
+        pixel inside the text, so ``r`` and ``m``, ``s``, ``b``, ``d`` are Pillow's one pixel further on. First ``l``
+        where the pen starts, ``m`` the middle or ``r`` the last column of the advance; lines are flush with that
+        side. Then ``a`` the top row of the line, ``t`` the topmost lit row, ``m`` the middle, ``s`` the row that the
+        first line stands on, ``b`` the lowest lit row, or ``d`` the lowest row of the line. In the built-in fonts a
+        character fills its cell, so that ``t`` is ``a`` and ``b`` is ``d``.
 
     Returns
     -------
     coverage : numpy.ndarray
         uint8 of shape (height, width), C-contiguous: 0 where there is no ink, 255 where there is, shades between where
-        the font is anti-aliased.
+        the font is anti-aliased. The lines with their full height and advance, and whatever ink reaches beyond.
     dx, dy : int
         From the anchored point to the top-left pixel of the coverage.
 
@@ -51,36 +57,67 @@ def render(text: str, font: Font | None = None, anchor: str = "lt") -> tuple[NDA
     ((8, 17), -16, -7)
     """
     font = font_of(font)
-    offset(anchor, 0, 0, 0)
-    lines = split_lines(text)
-    if len(lines) == 1:
-        coverage = np.ascontiguousarray(font._face.line(lines[0]))
-    else:
-        coverage = _stack([font._face.line(line) for line in lines], font.height, anchor[0])
-    height, width = coverage.shape
-    return coverage, *offset(anchor, width, height, font.baseline)
+    check_anchor(anchor)
+    lines = [font._face.line(line) for line in split_lines(text)]
+    widest = max(line.advance for line in lines)
+    side = _reach(anchor[0], widest)
+    lefts = [side - _reach(anchor[0], line.advance) + line.left for line in lines]
+    tops = [number * font.height + line.top for number, line in enumerate(lines)]
+    placed = list(zip(lines, lefts, tops, strict=True))
+    left, top = min(0, *lefts), min(0, *tops)
+    right = max(math.ceil(widest), *(x + line.ink.shape[1] for line, x, _ in placed))
+    bottom = max(font.height * len(lines), *(y + line.ink.shape[0] for line, _, y in placed))
+    coverage = np.zeros((bottom - top, right - left), np.uint8)
+    for line, x, y in placed:
+        part = coverage[y - top :, x - left :][: line.ink.shape[0], : line.ink.shape[1]]
+        np.maximum(part, line.ink, out=part)
+    dy = rise(anchor, font, len(lines), _ink(lines[0]), _ink(lines[-1]))
+    return coverage, left - side, top + dy
 
 
-def offset(anchor: str, width: int, height: int, baseline: int) -> tuple[int, int]:
-    """From the point where a text is anchored to the top-left pixel of its box of `width` x `height` pixels."""
-    if anchor not in _ANCHORS:
-        raise ValueError(f"anchor must be one of l, m, r and one of a, t, m, s, b, d, such as 'lt', not {anchor!r}")
-    horizontal, vertical = anchor[0], anchor[1]
-    return -_reach(horizontal, width), -baseline if vertical == "s" else -_reach(vertical, height)
+def check_anchor(anchor: str) -> None:
+    """Refuse what is no anchor, of whatever type."""
+    if not isinstance(anchor, str) or anchor not in _ANCHORS:
+        raise ValueError(f"anchor must be one of l, m, r and one of a, t, m, s, b, d, such as 'la', not {anchor!r}")
 
 
-def _reach(side: str, size: int) -> int:
-    """Pixels from the first of a row of ``size`` pixels to the one that an anchor's letter names."""
-    if side in "rbd":
-        return max(size - 1, 0)
-    return max(size - 1, 0) // 2 if side == "m" else 0
+def offset(anchor: str, font: Font, width: float, top: int, bottom: int) -> tuple[int, int]:
+    """From the point where one line of text is anchored to its pen and the top of the line.
+
+    `width` is its advance; it is lit from row `top` on, above row `bottom`.
+    """
+    check_anchor(anchor)
+    return -_reach(anchor[0], width), rise(anchor, font, 1, (top, bottom), (top, bottom))
 
 
-def _stack(covers: list[NDArray[np.uint8]], height: int, side: str) -> NDArray[np.uint8]:
-    """Set lines one below the other, flush with a side."""
-    width = max(cover.shape[1] for cover in covers)
-    stacked = np.zeros((height * len(covers), width), np.uint8)
-    for row, cover in enumerate(covers):
-        left = _reach(side, width) - _reach(side, cover.shape[1])
-        stacked[row * height : (row + 1) * height, left : left + cover.shape[1]] = cover
-    return stacked
+def rise(anchor: str, font: Font, lines: int, first: tuple[int, int], last: tuple[int, int]) -> int:
+    """From the row where lines of text are anchored to the top of the first, by the lit rows of the first and last."""
+    ascent, height = font.baseline + 1, font.height * lines
+    vertical = anchor[1]
+    if font._cells:
+        first, last = (0, font.height), (0, font.height)
+    if vertical == "m":
+        if font._cells:
+            return -(max(height - 1, 0) // 2)
+        # The middle of ascent and descent, from the baseline, halves up, as Pillow rounds it.
+        return 1 - ascent + (2 * ascent - font.height + 1) // 2 - (height - font.height) // 2
+    # Pillow counts the line that letters stand on as lit.
+    rows = {
+        "a": 0,
+        "t": min(first[0], ascent),
+        "s": ascent - 1,
+        "b": height - font.height + max(last[1], ascent) - 1,
+        "d": height - 1,
+    }
+    return -rows[vertical]
+
+
+def _ink(line: Picture) -> tuple[int, int]:
+    return line.top, line.top + line.ink.shape[0]
+
+
+def _reach(side: str, width: float) -> int:
+    """Columns from the first of an advance to the one that an anchor's letter names, to the nearest."""
+    if side == "l":
+        return 0
+    return max(math.floor((width if side == "r" else width / 2) + 0.5) - 1, 0)

@@ -1,0 +1,1 @@
+"""Readers of the world's bitmap fonts."""
