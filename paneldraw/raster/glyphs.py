@@ -10,7 +10,6 @@ import numpy as np
 from cython.cimports.paneldraw.raster.paint import inverse_of, paint_coverage
 from cython.cimports.paneldraw.raster.surface import OVER, Surface, near
 
-
 #: Of characters that a font does not have, how many are remembered to be missing.
 REMEMBERED = 65536
 
@@ -44,7 +43,7 @@ class Glyphs:
         self.picture_of = picture_of
         # Of each span row, first column, and the column behind it; character k has those from firsts[k] on.
         self.kept = (array("i", [0]), array("h"), array("h"))
-        self.far = {}
+        self.far: dict[int, int] = {}
         if not cython.compiled:
             self.near = [-1] * 256
         for code in range(256):
@@ -62,7 +61,7 @@ class Glyphs:
         edges = np.diff(padded, axis=1)
         begins, ends = np.argwhere(edges > 0), np.argwhere(edges < 0)
         firsts, spans, advances = self.kept
-        spans.extend((np.column_stack((begins, ends[:, 1])) + (top, left, left)).ravel().tolist())
+        spans.extend(np.add(np.column_stack((begins, ends[:, 1])), (top, left, left)).ravel().tolist())
         firsts.append(len(spans) // 3)
         advances.append(advance)
         self._point()
@@ -109,11 +108,11 @@ class Glyphs:
             columns += self.advances[k]
         return columns
 
-    def measure(self, text):
+    def measure(self, text: str) -> int:
         """Columns of a line of text."""
         return max(self.advance(text) - self.gap, 0)
 
-    def bounds(self, text):
+    def bounds(self, text: str) -> tuple[int, int, int, int]:
         """Return left, top, right, bottom of what is lit in a line, from its pen and top; all 0 where nothing is."""
         character: cython.Py_UCS4
         k: cython.int
@@ -135,7 +134,7 @@ class Glyphs:
             left = right = top = bottom = 0
         return left, top, right, bottom
 
-    def cover(self, text, x, y, width, height):
+    def cover(self, text: str, x: int, y: int, width: int, height: int) -> bytearray:
         """Return the coverage of a line, its pen at (x, y), in `width` x `height` pixels: rows of 0 and 255."""
         memory = bytearray(width * height)
         surface: Surface = Surface(memory, 0, width, width, height, 255)

@@ -7,6 +7,9 @@ import unicodedata
 _SPACES = {0xA0, *range(0x2000, 0x200B), 0x202F, 0x205F, 0x3000}
 _HYPHENS = {0x2010, 0x2011}
 
+# Formatting characters that have a picture all the same: signs of numbers in Arabic, Syriac and Kaithi.
+_SEEN = {*range(0x600, 0x606), 0x6DD, 0x70F, 0x8E2, 0x110BD, 0x110CD}
+
 
 def composed(text: str) -> str:
     """The text with letters and their marks as one character where there is one (NFC)."""
@@ -21,8 +24,7 @@ def is_invisible(code: int) -> bool:
         code in (0xAD, 0x34F, 0x61C, 0x180E)
         or 0xFE00 <= code <= 0xFE0F
         or 0xE0000 <= code <= 0xE0FFF
-        or unicodedata.category(chr(code)) == "Cf"
-        and not (0x600 <= code <= 0x605 or code in (0x6DD, 0x70F, 0x8E2, 0x110BD, 0x110CD))
+        or (unicodedata.category(chr(code)) == "Cf" and code not in _SEEN)
     )
 
 

@@ -102,15 +102,83 @@ class Font:
         """
         from PIL import ImageFont
 
-        if not size > 0:
-            raise ValueError(f"size must be positive, not {size}")
+        from paneldraw.text.loading import check_size
+
+        check_size(size)
         try:
             loaded = ImageFont.truetype(os.fspath(path), size)
         except OSError as error:
             raise OSError(
-                f"cannot read font {os.fspath(path)!r} ({error}); give the path of a .ttf or .otf file"
+                f"cannot read font {os.fspath(path)!r} ({error}); give the path of a .ttf or .otf file, or Font.load "
+                "reads other kinds"
             ) from error
         return Font.from_pillow(loaded, antialias=antialias)
+
+    @staticmethod
+    def load(
+        path: str | os.PathLike[str],
+        size: float | None = None,
+        *,
+        antialias: bool = False,
+        encoding: str | None = None,
+    ) -> Font:
+        """Return the font of a file.
+
+        TrueType and OpenType, with outlines or bitmaps (``.otb``), and what else FreeType reads; BDF and PCF of X11,
+        PSF of the Linux console, packed with gzip or not; Unifont's ``.hex``; Pillow's ``.pil``; a C source of U8g2's
+        fonts, the name of one behind a ``#`` where it has several.
+
+        Parameters
+        ----------
+        path : path-like
+            The file.
+        size : float, optional
+            Pixels to the em. A bitmap font has sizes of its own; where it has one, that is the default.
+        antialias : bool, default False
+            Whether edges of outlines are gray. The crisp default suits panels of one bit a pixel.
+        encoding : str, optional
+            The character set of a bitmap font's codes, such as ``"koi8-r"``, instead of the one that the file names;
+            ``"raw"`` for the codes as they are. Codes of a set that Python has no codec for are so anyway: ``chr(65)``
+            is the character of code 65.
+
+        Raises
+        ------
+        ValueError
+            If the font has no such size, or there is no such encoding.
+        OSError
+            If there is no such file or it cannot be read.
+        """
+        from paneldraw.text.loading import load
+
+        return load(path, size, antialias, encoding)
+
+    @staticmethod
+    def find(
+        name: str, size: float | None = None, *, bold: bool = False, italic: bool = False, antialias: bool = False
+    ) -> Font:
+        """Return a font that is installed on this system, by the name of its family or file.
+
+        Parameters
+        ----------
+        name : str
+            Such as ``"terminus"`` or ``"DejaVu Sans"``. Case, spaces and hyphens do not count; the start will do.
+        size : float, optional
+            Pixels to the em, as for :meth:`load`.
+        bold, italic : bool, default False
+            The style, where there are several.
+        antialias : bool, default False
+            Whether edges of outlines are gray.
+
+        Raises
+        ------
+        FileNotFoundError
+            If there is none of that name; the message tells which there are.
+        ValueError
+            If there is none of that size.
+        """
+        from paneldraw.text.finding import find
+
+        return find(name, size, bold, italic, antialias)
 
     @staticmethod
     def from_pillow(
@@ -135,7 +203,7 @@ class Font:
         from PIL import ImageFont
 
         if isinstance(font, ImageFont.FreeTypeFont):
-            return _outline(font, name, antialias)
+            return outline(font, name, antialias)
         if isinstance(font, ImageFont.ImageFont):
             from paneldraw.text.formats.pil import strike_of
 
@@ -270,7 +338,7 @@ def of_strike(strike: Strike) -> Font:
     )
 
 
-def _outline(font: ImageFont.FreeTypeFont, name: str | None, antialias: bool) -> Font:
+def outline(font: ImageFont.FreeTypeFont, name: str | None, antialias: bool) -> Font:
     """Return the font that Pillow's FreeType draws."""
     from paneldraw.text.outline import characters_of
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import io
 import os
 import struct
@@ -21,11 +22,18 @@ LARGEST_TABLE = 1 << 22
 def characters_of(font: ImageFont.FreeTypeFont) -> Callable[[int], bool]:
     """Return what says whether a font has a character: its table of characters, else a look at what is drawn."""
     lookup = None
-    try:
+    with contextlib.suppress(OSError, struct.error, ValueError, IndexError, OverflowError):
         lookup = _lookup(_bytes_of(font), getattr(font, "index", 0))
-    except (OSError, struct.error, ValueError, IndexError, OverflowError):
-        pass
     return (lambda code: lookup(code) != 0) if lookup is not None else _drawn(font)
+
+
+def is_scalable(font: ImageFont.FreeTypeFont) -> bool:
+    """Whether a font has outlines; one of bitmaps alone is of its own sizes."""
+    try:
+        font.font_variant(size=61.25)
+    except (OSError, ValueError):
+        return False
+    return True
 
 
 def _drawn(font: ImageFont.FreeTypeFont) -> Callable[[int], bool]:
@@ -90,9 +98,9 @@ def _format_0(sub: bytes) -> Lookup:
 def _format_4(sub: bytes) -> Lookup:
     """Segments of codes with one distance to their glyphs each, or glyphs one by one."""
     count = struct.unpack_from(">6xH", sub)[0] // 2
-    ends = struct.unpack_from(f">{count}H", sub, 14)
-    starts = struct.unpack_from(f">{count}H", sub, 16 + 2 * count)
-    deltas = struct.unpack_from(f">{count}H", sub, 16 + 4 * count)
+    ends: tuple[int, ...] = struct.unpack_from(f">{count}H", sub, 14)
+    starts: tuple[int, ...] = struct.unpack_from(f">{count}H", sub, 16 + 2 * count)
+    deltas: tuple[int, ...] = struct.unpack_from(f">{count}H", sub, 16 + 4 * count)
     offsets = struct.unpack_from(f">{count}H", sub, 16 + 6 * count)
 
     def glyph(code: int) -> int:
@@ -112,7 +120,7 @@ def _format_4(sub: bytes) -> Lookup:
 
 def _format_6(sub: bytes) -> Lookup:
     first, count = struct.unpack_from(">6xHH", sub)
-    glyphs = struct.unpack_from(f">{min(count, (len(sub) - 10) // 2)}H", sub, 10)
+    glyphs: tuple[int, ...] = struct.unpack_from(f">{min(count, (len(sub) - 10) // 2)}H", sub, 10)
     return lambda code: glyphs[code - first] if 0 <= code - first < len(glyphs) else 0
 
 
@@ -120,7 +128,7 @@ def _format_12(sub: bytes) -> Lookup:
     """Groups of codes whose glyphs follow one another (format 12) or are the same (13)."""
     form, count = struct.unpack_from(">H10xI", sub)
     count = min(count, (len(sub) - 16) // 12)
-    groups = list(struct.iter_unpack(">III", sub[16 : 16 + 12 * count]))
+    groups: list[tuple[int, int, int]] = list(struct.iter_unpack(">III", sub[16 : 16 + 12 * count]))
     ends = [end for _, end, _ in groups]
 
     def glyph(code: int) -> int:

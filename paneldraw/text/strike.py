@@ -54,6 +54,8 @@ class Strike:
         Whether the characters fill a cell each, so that the box of a text is its cells and not its ink.
     missing : int, optional
         The code point of what stands for characters that are not there. Default: a box is drawn.
+    size : int, optional
+        What people call its size. Default: the rows of a line.
     """
 
     name: str
@@ -63,6 +65,7 @@ class Strike:
     gap: int = 0
     cells: bool = False
     missing: int | None = None
+    size: int | None = None
 
 
 def box(width: int, height: int, ascent: int) -> Picture:

@@ -6,12 +6,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from paneldraw.text.formats import standing_row
 from paneldraw.text.strike import Picture, Strike
 
 if TYPE_CHECKING:
     from PIL import ImageFont
-
-_ON_THE_BASELINE = b"HXEAMI0x1"
 
 
 def strike_of(font: ImageFont.ImageFont, name: str) -> Strike:
@@ -24,6 +23,5 @@ def strike_of(font: ImageFont.ImageFont, name: str) -> Strike:
         if width and mask.size[1]:
             ink = np.frombuffer(bytes(mask), np.uint8).reshape(mask.size[1], width)
             pictures[code] = Picture(ink, 0, 0, width)
-    standing = [pictures[code].ink for code in _ON_THE_BASELINE if code in pictures and pictures[code].ink.any()]
-    ascent = int(np.flatnonzero(standing[0].any(axis=1))[-1]) + 1 if standing else height
+    ascent = standing_row(pictures, height - 1) + 1
     return Strike(name, ascent, height - ascent, pictures)

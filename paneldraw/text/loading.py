@@ -1,0 +1,177 @@
+"""Fonts from files: what kind of font a file is, who reads it, and which sizes it has."""
+
+from __future__ import annotations
+
+import os
+import re
+import zlib
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from paneldraw.text.font import Font, of_strike, outline
+from paneldraw.text.formats import DamagedFontError, Pictures, bdf, charsets, pcf, psf, u8g2, unifont
+from paneldraw.text.outline import characters_of, is_scalable
+from paneldraw.text.strike import Picture, Strike
+
+if TYPE_CHECKING:
+    from PIL import ImageFont
+
+LARGEST = 1 << 26
+"""Bytes of a bitmap font, unpacked: the largest known, all of Unicode as BDF, has 10 MB."""
+
+_PROBED = range(1, 129)
+
+Reader = Callable[[bytes, str, "str | None"], Strike]
+
+
+def load(path: str | os.PathLike[str], size: float | None, antialias: bool, encoding: str | None) -> Font:
+    """Read a font file; see `Font.load`."""
+    place, wanted = _named(os.fspath(path))
+    check_size(size)
+    if encoding is not None:
+        charsets.check(encoding)
+    try:
+        with place.open("rb") as file:
+            start = file.read(4096)
+            reader = _reader(_unzipped(start, 4096), place)
+            data = (start + file.read(LARGEST + 1)) if reader else start
+    except OSError as error:
+        raise type(error)(
+            error.errno, f"cannot read font {str(place)!r}: {error.strerror}; Font.find(name) looks for installed ones"
+        ) from error
+    try:
+        if reader is None:
+            return _through_pillow(place, size, antialias)
+        return of_strike(_at(size, reader(_unzipped(data, LARGEST + 1), wanted or _stem(place), encoding), place))
+    except DamagedFontError as error:
+        raise OSError(f"cannot read font {str(place)!r}: {error}") from error
+
+
+def check_size(size: float | None) -> None:
+    """Refuse what is no size."""
+    if size is None:
+        return
+    if isinstance(size, bool) or not isinstance(size, (int, float)):
+        raise TypeError(f"size must be a number of pixels, not {type(size).__name__}")
+    if not 0 < size <= 4096:
+        raise ValueError(f"size must be positive and at most 4096, not {size}")
+
+
+def _named(path: str | bytes) -> tuple[Path, str]:
+    """The file, and the name behind a # of one of the fonts in it."""
+    if isinstance(path, bytes):
+        path = os.fsdecode(path)
+    file, _, name = path.rpartition("#")
+    return (Path(file), name) if file and not os.path.exists(path) else (Path(path), "")
+
+
+def _stem(place: Path) -> str:
+    return place.name.split(".")[0] or place.name
+
+
+def _unzipped(data: bytes, limit: int) -> bytes:
+    """The bytes that a gzip file holds; no more than its limit, however small it was packed."""
+    if not data.startswith(b"\x1f\x8b"):
+        found = data
+    else:
+        try:
+            found = zlib.decompressobj(31).decompress(data, limit)
+        except zlib.error as error:
+            raise DamagedFontError(f"damaged gzip data ({error})") from error
+    if len(found) > LARGEST:
+        raise DamagedFontError(f"more than {LARGEST >> 20} MB, which is no bitmap font")
+    return found
+
+
+def _reader(start: bytes, place: Path) -> Reader | None:
+    """Who reads a file, by how it begins; None for Pillow."""
+    if start.startswith(b"\x01fcp"):
+        return pcf.read
+    if start.startswith(psf.MAGICS):
+        return psf.read
+    if re.search(rb"^\s*STARTFONT\b", start, re.M):
+        return bdf.read
+    if re.match(rb"(?:#.*\r?\n|\s)*[0-9A-Fa-f]{4,6}:[0-9A-Fa-f]{16}", start):
+        return unifont.read
+    if b"u8g2_font_" in start or place.suffix in (".c", ".h"):
+        return u8g2.read
+    return None
+
+
+def _at(size: float | None, strike: Strike, place: Path) -> Strike:
+    sizes = {strike.size or 0, strike.ascent + strike.descent} - {0}
+    if size is not None and size not in sizes:
+        raise wrong_size(place, size, sorted(sizes)[:1])
+    return strike
+
+
+def wrong_size(place: Path, size: float | None, sizes: list[int]) -> ValueError:
+    """What is said of a size that a bitmap font does not have, or of none where it has several."""
+    known = ", ".join(map(str, sizes))
+    if size is None:
+        return ValueError(f"size must be one of those of {place.name}: {known}")
+    only = "the size" if len(sizes) == 1 else "the sizes"
+    return ValueError(f"{place.name} has {only} {known}, not {size}; font.scaled(2) doubles one")
+
+
+def _through_pillow(place: Path, size: float | None, antialias: bool) -> Font:
+    """An outline font, a font of Pillow's own, or bitmaps in the form of OpenType."""
+    from PIL import ImageFont
+
+    if place.suffix == ".pil":
+        return _pillows_own(place, size)
+    try:
+        probe = ImageFont.truetype(str(place), 16)
+        if is_scalable(probe):
+            if size is None:
+                raise ValueError(f"size must be given: {place.name} is drawn at any, in pixels to the em")
+            return outline(probe.font_variant(size=size), None, antialias)
+    except OSError:
+        pass
+    sizes = {}
+    for known in _PROBED:
+        try:
+            sizes[known] = ImageFont.truetype(str(place), known, layout_engine=ImageFont.Layout.BASIC)
+        except (OSError, ValueError):
+            continue
+    if not sizes:
+        raise DamagedFontError("neither TrueType, OpenType, BDF, PCF, OTB, PSF, .hex, .pil nor a C source of U8g2's")
+    if (size is None and len(sizes) > 1) or (size is not None and size not in sizes):
+        raise wrong_size(place, size, list(sizes))
+    known = next(iter(sizes)) if size is None else int(size)
+    return of_strike(_bitmaps(sizes[known], known))
+
+
+def _pillows_own(place: Path, size: float | None) -> Font:
+    from PIL import ImageFont
+
+    from paneldraw.text.formats.pil import strike_of
+
+    try:
+        loaded = ImageFont.load(str(place))
+        return of_strike(_at(size, strike_of(loaded, place.stem), place))
+    except (OSError, SyntaxError, TypeError, ValueError, EOFError) as error:
+        if isinstance(error, ValueError) and "size" in str(error):
+            raise
+        raise DamagedFontError(str(error) or type(error).__name__) from error
+
+
+def _bitmaps(font: ImageFont.FreeTypeFont, size: int) -> Strike:
+    """The characters of a font of bitmaps that FreeType reads."""
+    ascent, descent = font.getmetrics()
+    has = characters_of(font)
+
+    def picture(code: int) -> Picture:
+        char = chr(code)
+        left, top, right, bottom = (int(edge) for edge in font.getbbox(char, "1", anchor="ls"))
+        if right <= left or bottom <= top:
+            return Picture(np.zeros((0, 0), np.uint8), 0, 0, round(font.getlength(char, "1")))
+        ink = np.frombuffer(bytes(font.getmask(char, "1")), np.uint8).reshape(bottom - top, right - left)
+        return Picture(ink, left, ascent + top, round(font.getlength(char, "1")))
+
+    codes = {code: code for code in range(0x110000) if has(code)}
+    name = " ".join(part for part in font.getname() if part)
+    return Strike(name, ascent, descent, Pictures(codes, picture), size=size)
