@@ -9,6 +9,7 @@ cdef class Glyphs:
     cdef int *firsts
     cdef short *spans
     cdef short *advances
+    cdef short *boxes
     cdef int[256] near
     cdef dict far
 

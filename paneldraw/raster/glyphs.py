@@ -42,7 +42,8 @@ class Glyphs:
         self.overlapping = False
         self.picture_of = picture_of
         # Of each span row, first column, and the column behind it; character k has those from firsts[k] on.
-        self.kept = (array("i", [0]), array("h"), array("h"))
+        # Of each character: left, top, right and bottom of its picture.
+        self.kept = (array("i", [0]), array("h"), array("h"), array("h"))
         self.far: dict[int, int] = {}
         if not cython.compiled:
             self.near = [-1] * 256
@@ -60,10 +61,11 @@ class Glyphs:
         padded[:, 1:-1] = ink != 0
         edges = np.diff(padded, axis=1)
         begins, ends = np.argwhere(edges > 0), np.argwhere(edges < 0)
-        firsts, spans, advances = self.kept
+        firsts, spans, advances, boxes = self.kept
         spans.extend(np.add(np.column_stack((begins, ends[:, 1])), (top, left, left)).ravel().tolist())
         firsts.append(len(spans) // 3)
         advances.append(advance)
+        boxes.extend((left, top, left + width, top + height))
         self._point()
         self.left, self.right = min(self.left, left), max(self.right, left + width)
         self.top, self.bottom = min(self.top, top), max(self.bottom, top + height)
@@ -77,8 +79,9 @@ class Glyphs:
             self.firsts = cython.cast(cython.p_int, _address(self.kept[0]))
             self.spans = cython.cast(cython.p_short, _address(self.kept[1]))
             self.advances = cython.cast(cython.p_short, _address(self.kept[2]))
+            self.boxes = cython.cast(cython.p_short, _address(self.kept[3]))
         else:
-            self.firsts, self.spans, self.advances = self.kept
+            self.firsts, self.spans, self.advances, self.boxes = self.kept
 
     def add(self, code):
         """Ask for the picture of a character."""
@@ -113,10 +116,9 @@ class Glyphs:
         return max(self.advance(text) - self.gap, 0)
 
     def bounds(self, text: str) -> tuple[int, int, int, int]:
-        """Return left, top, right, bottom of what is lit in a line, from its pen and top; all 0 where nothing is."""
+        """Return left, top, right, bottom of the pictures of a line, from its pen and top; all 0 where there are none."""
         character: cython.Py_UCS4
         k: cython.int
-        i: cython.int
         x: cython.longlong = 0
         left: cython.longlong = 1 << 60
         right: cython.longlong = -(1 << 60)
@@ -124,11 +126,11 @@ class Glyphs:
         bottom: cython.longlong = right
         for character in text:
             k = self.find(ord(character))
-            for i in range(3 * self.firsts[k], 3 * self.firsts[k + 1], 3):
-                top = min(top, self.spans[i])
-                bottom = max(bottom, self.spans[i] + 1)
-                left = min(left, x + self.spans[i + 1])
-                right = max(right, x + self.spans[i + 2])
+            if self.boxes[4 * k] < self.boxes[4 * k + 2]:
+                left = min(left, x + self.boxes[4 * k])
+                top = min(top, self.boxes[4 * k + 1])
+                right = max(right, x + self.boxes[4 * k + 2])
+                bottom = max(bottom, self.boxes[4 * k + 3])
             x += self.advances[k]
         if left >= right:
             left = right = top = bottom = 0

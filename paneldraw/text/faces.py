@@ -49,7 +49,11 @@ class StrikeFace:
         left, top, right, bottom = self.glyphs.bounds(text)
         memory = self.glyphs.cover(text, -left, -top, right - left, bottom - top)
         ink = np.frombuffer(memory, np.uint8).reshape(bottom - top, right - left)
-        return Picture(ink, left, top, self.glyphs.measure(text))
+        width = self.glyphs.measure(text)
+        if not ink[:, max(width - left, 0) :].any():
+            # The gap behind the last character is no part of a line unless it is lit.
+            ink = ink[:, : max(width - left, 0)]
+        return Picture(ink, left, top, width)
 
     def _picture(self, code: int) -> Picture | None:
         own = self._own(code)

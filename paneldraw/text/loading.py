@@ -92,7 +92,7 @@ def _reader(start: bytes, place: Path) -> Reader | None:
         return pcf.read
     if start.startswith(psf.MAGICS):
         return psf.read
-    if re.search(rb"^\s*STARTFONT\b", start, re.M):
+    if re.search(rb"^[ \t]*START(?:FONT|CHAR)\b", start, re.M):
         return bdf.read
     if re.match(rb"(?:#.*\r?\n|\s)*[0-9A-Fa-f]{4,6}:[0-9A-Fa-f]{16}", start):
         return unifont.read
