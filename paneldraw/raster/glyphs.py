@@ -116,7 +116,7 @@ class Glyphs:
         return max(self.advance(text) - self.gap, 0)
 
     def bounds(self, text: str) -> tuple[int, int, int, int]:
-        """Return left, top, right, bottom of the pictures of a line, from its pen and top; all 0 where there are none."""
+        """Return left, top, right, bottom of a line's pictures, from its pen and top; all 0 where there are none."""
         character: cython.Py_UCS4
         k: cython.int
         x: cython.longlong = 0

@@ -129,9 +129,9 @@ def _listed(folder: Path) -> dict[str, Installed]:
         parts = name.split("-")
         if len(parts) == 15:
             style = parts[3] + (" italic" if parts[4] in "io" and parts[4] else "")
-            width = "" if parts[5] in ("normal", "c", "") else " " + parts[5]
+            kinds = [part for part in (parts[5], parts[6]) if part not in ("normal", "c", "")]
             size = int(parts[7]) if parts[7].isdigit() else 0
-            family = parts[2] + width
+            family = " ".join([parts[2], *kinds])
             found[file] = Installed(folder / file, family, style, size, "-".join(parts[13:]))
     return found
 
@@ -158,7 +158,8 @@ def _plain(name: str) -> str:
 def _rank(font: Installed, query: str) -> int:
     """How well a name fits: 0 the file's, 1 the family's, 2 its start, 3 a part of it, 4 not at all."""
     family = _plain(font.family)
-    if query == _plain(font.path.name.split(".")[0]) or font.path.name.lower() == query:
+    file = font.path.name
+    if query == _plain(file) or query == _plain(file.split(".")[0]) != family:
         return 0
     return 1 if query == family else 2 if family.startswith(query) else 3 if query in family else 4
 

@@ -12,12 +12,15 @@ from typing import TYPE_CHECKING, Any
 from paneldraw.raster.glyphs import Glyphs
 from paneldraw.text.characters import composed
 from paneldraw.text.faces import ChainFace, Face, FreeTypeFace, ScaledFace, StrikeFace
-from paneldraw.text.strike import Picture, Strike, box
+from paneldraw.text.strike import Strike, box
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
     from PIL import ImageFont
+
+NO_CHARACTER = 0x10FFFF
+"""What no font has a picture of."""
 
 TAB = 4
 """Columns between tab stops, in characters: a narrow panel has about twenty of them."""
@@ -233,8 +236,7 @@ class Font:
         if isinstance(self._face, ChainFace):
             chain = ChainFace((*self._face.faces, *others), self._face.missing)
         else:
-            frame = box(max(self.width - 1, 1), self.baseline + 1, self.baseline + 1)
-            chain = ChainFace(((self._face, self.baseline + 1), *others), frame)
+            chain = ChainFace(((self._face, self.baseline + 1), *others), self._face.line(chr(NO_CHARACTER)))
         return replace(self, _face=chain, _glyphs=None)
 
     def scaled(self, factor: int) -> Font:
@@ -322,8 +324,8 @@ def of_strike(strike: Strike) -> Font:
     """Return the font that a bitmap font is."""
     face = StrikeFace(strike)
     pictures = strike.pictures
-    found: list[Picture] = [pictures[code] for code in range(0x20, 0x7F) if code in pictures]
-    found = found or [pictures[code] for code in islice(pictures, 95)]
+    codes = [code for code in range(0x20, 0x7F) if code in pictures] or list(islice(pictures, 95))
+    found = [picture for picture in map(pictures.get, codes) if picture is not None]
     advances = {int(picture.advance) for picture in found} or {0}
     height = strike.ascent + strike.descent
     return Font(

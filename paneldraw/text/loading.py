@@ -24,6 +24,8 @@ LARGEST = 1 << 26
 
 _PROBED = range(1, 129)
 
+_KINDS = "TrueType, OpenType, BDF, PCF, OTB, PSF, .hex, .pil and C sources of U8g2's are read"
+
 Reader = Callable[[bytes, str, "str | None"], Strike]
 
 
@@ -33,21 +35,26 @@ def load(path: str | os.PathLike[str], size: float | None, antialias: bool, enco
     check_size(size)
     if encoding is not None:
         charsets.check(encoding)
+    start, rest = _contents(place)
+    try:
+        reader = _reader(_unzipped(start, 4096), place)
+        if reader is None:
+            return _through_pillow(place, size, antialias)
+        strike = reader(_unzipped(start + rest, LARGEST + 1), wanted or _stem(place), encoding)
+        return of_strike(_at(size, strike, place))
+    except DamagedFontError as error:
+        raise OSError(f"cannot read font {str(place)!r}: {error}") from error
+
+
+def _contents(place: Path) -> tuple[bytes, bytes]:
+    """The beginning of a file, and what follows, as far as a bitmap font goes."""
     try:
         with place.open("rb") as file:
-            start = file.read(4096)
-            reader = _reader(_unzipped(start, 4096), place)
-            data = (start + file.read(LARGEST + 1)) if reader else start
+            return file.read(4096), file.read(LARGEST + 1)
     except OSError as error:
         raise type(error)(
             error.errno, f"cannot read font {str(place)!r}: {error.strerror}; Font.find(name) looks for installed ones"
         ) from error
-    try:
-        if reader is None:
-            return _through_pillow(place, size, antialias)
-        return of_strike(_at(size, reader(_unzipped(data, LARGEST + 1), wanted or _stem(place), encoding), place))
-    except DamagedFontError as error:
-        raise OSError(f"cannot read font {str(place)!r}: {error}") from error
 
 
 def check_size(size: float | None) -> None:
@@ -129,8 +136,9 @@ def _through_pillow(place: Path, size: float | None, antialias: bool) -> Font:
             if size is None:
                 raise ValueError(f"size must be given: {place.name} is drawn at any, in pixels to the em")
             return outline(probe.font_variant(size=size), None, antialias)
-    except OSError:
-        pass
+    except OSError as error:
+        if "pixel size" not in str(error):
+            raise DamagedFontError(f"{error}; {_KINDS}") from error
     sizes = {}
     for known in _PROBED:
         try:
@@ -138,7 +146,7 @@ def _through_pillow(place: Path, size: float | None, antialias: bool) -> Font:
         except (OSError, ValueError):
             continue
     if not sizes:
-        raise DamagedFontError("neither TrueType, OpenType, BDF, PCF, OTB, PSF, .hex, .pil nor a C source of U8g2's")
+        raise DamagedFontError(f"it has no size up to {_PROBED[-1]}")
     if (size is None and len(sizes) > 1) or (size is not None and size not in sizes):
         raise wrong_size(place, size, list(sizes))
     known = next(iter(sizes)) if size is None else int(size)

@@ -1,0 +1,148 @@
+"""Damaged fonts, and files that are none: a sentence, or whatever can be read of them; never a crash."""
+
+from __future__ import annotations
+
+import gzip
+import re
+
+import numpy as np
+import pytest
+import sample_fonts as sample
+from hypothesis import given
+from hypothesis import strategies as st
+from PIL import ImageFont
+
+from paneldraw import Font, Framebuffer
+from paneldraw.text import render
+from paneldraw.text.outline import characters_of
+
+WHOLE = {
+    ".bdf": sample.bdf(),
+    ".pcf": sample.pcf(),
+    ".psf": sample.psf1(),
+    ".psfu": sample.psf2(),
+    ".hex": sample.hexadecimal(),
+    ".c": sample.u8g2(),
+    ".pcf.gz": gzip.compress(sample.pcf()),
+    ".ttf": ImageFont.load_default(10).font_bytes[:3000],
+}
+DIGITS = re.compile(rb"\d+")
+
+
+@st.composite
+def damaged(draw):
+    """A font cut short, with bytes changed, and with numbers that make no sense."""
+    ending = draw(st.sampled_from(sorted(WHOLE)))
+    data = bytearray(WHOLE[ending])
+    for _ in range(draw(st.integers(0, 6))):
+        data[draw(st.integers(0, len(data) - 1))] = draw(st.sampled_from((0, 1, 0x7F, 0x80, 0xFF, 0x2D, 0x39)))
+    data = data[: draw(st.one_of(st.just(len(data)), st.integers(0, len(data))))]
+    number = draw(st.none() | st.sampled_from((b"-1", b"0", b"99999", b"4294967295", b"9" * 30)))
+    if number is not None and ending in (".bdf", ".hex", ".c"):
+        at = draw(st.integers(0, 30))
+        found = list(DIGITS.finditer(bytes(data)))[at : at + 1]
+        for match in found:
+            data[match.start() : match.end()] = number
+    return ending, bytes(data)
+
+
+def loaded_or_refused(path):
+    """The font, or None where a sentence says what is wrong with it."""
+    try:
+        return Font.load(path, 10 if path.suffix == ".ttf" else None)
+    except OSError as error:
+        if not str(error).startswith(f"cannot read font {str(path)!r}: "):
+            raise
+    return None
+
+
+@given(damaged())
+def test_damage_is_said_or_survived(tmp_path_factory, font):
+    ending, data = font
+    path = tmp_path_factory.getbasetemp() / f"damaged{ending}"
+    path.write_bytes(data)
+    loaded = loaded_or_refused(path)
+    if loaded is None:
+        return
+    fb = Framebuffer(64, 32)
+    fb.text("A.A\u0100Å \U0001f600", 3, 3, font=loaded, anchor="ms")
+    coverage, _, _ = render("A.A\u0100", loaded)
+    assert coverage.size <= 1 << 22
+    assert 0 < loaded.height <= 4096
+
+
+@pytest.mark.parametrize("ending", sorted(WHOLE))
+def test_every_beginning_of_a_font(tmp_path, ending):
+    data = WHOLE[ending][:700]
+    path = tmp_path / f"short{ending}"
+    for length in range(0, len(data), 7):
+        path.write_bytes(data[:length])
+        loaded = loaded_or_refused(path)
+        assert loaded is None or loaded.glyph("A").shape[0] >= loaded.height > 0
+
+
+@pytest.mark.parametrize("data", [b"", b"\0" * 100, b"no font", b"\x1f\x8b", b"\x36\x04", b"%PDF-1.4", b"\xff" * 5000])
+def test_files_that_are_no_fonts(tmp_path, data):
+    path = tmp_path / "file"
+    path.write_bytes(data)
+    with pytest.raises(OSError, match="cannot read font"):
+        Font.load(path)
+
+
+def test_files_that_are_not_there(tmp_path):
+    with pytest.raises(FileNotFoundError, match=r"nowhere\.ttf.*Font\.find"):
+        Font.load(tmp_path / "nowhere.ttf", 10)
+    with pytest.raises(IsADirectoryError, match="cannot read font"):
+        Font.load(tmp_path)
+
+
+def test_a_bomb_is_not_unpacked(tmp_path):
+    path = tmp_path / "bomb.bdf.gz"
+    path.write_bytes(gzip.compress(b"STARTFONT 2.1\n" + b"\0" * (200 << 20)))
+    with pytest.raises(OSError, match="more than 64 MB"):
+        Font.load(path)
+
+
+def test_characters_of_absurd_size_are_not_there(tmp_path):
+    path = tmp_path / "huge.bdf"
+    path.write_bytes(sample.bdf().replace(b"BBX 4 5 0 0", b"BBX 99999 99999 0 0"))
+    font = Font.load(path)
+    assert font.glyph("A").shape[0] < 20
+    assert (font.glyph("A") == font.glyph("\u4e2d")).all()
+
+
+@pytest.mark.parametrize("size", [0, -1, float("nan"), 1e9, float("inf")])
+def test_sizes_that_are_none(tmp_path, size):
+    path = tmp_path / "sample.bdf"
+    path.write_bytes(sample.bdf())
+    for call in (Font.load, Font.truetype):
+        with pytest.raises(ValueError, match="size must be positive"):
+            call(path, size)
+    with pytest.raises(TypeError, match="size must be a number"):
+        Font.load(path, "12")
+
+
+@pytest.mark.parametrize("anchor", ["", "l", "tl", "la ", "xx", None, 5, [], ("l", "a"), b"la", np.array(["l"])])
+def test_unknown_anchors_of_any_type(anchor):
+    for font in (None, Font.from_pillow(ImageFont.load_default(12))):
+        with pytest.raises(ValueError, match="anchor must be"):
+            Framebuffer(8, 8).text("a", 0, 0, font=font, anchor=anchor)
+
+
+def test_texts_larger_than_a_picture_may_be():
+    font = Font.from_pillow(ImageFont.load_default(3000))
+    with pytest.raises(ValueError, match="Pillow's limit"):
+        Framebuffer(8, 8).text("M" * 40, 0, 0, font=font)
+
+
+@given(st.binary(max_size=400))
+def test_a_table_of_characters_of_any_bytes(data):
+    """What an outline font says of its characters, damaged, is looked at by drawing instead."""
+    outline = ImageFont.load_default(10)
+    whole = outline.font_bytes
+    at = whole.index(b"cmap")
+    offset = int.from_bytes(whole[at + 8 : at + 12], "big")
+    outline.font_bytes = whole[:offset] + data + whole[offset + len(data) :]
+    has = characters_of(outline)
+    assert has(0x41) in (True, False)
+    assert has(0x10FFFF) in (True, False)
