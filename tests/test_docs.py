@@ -188,6 +188,16 @@ def test_the_page_on_watching_names_all_that_a_url_can_ask_for():
     assert [file.name for file in screens.SCREEN.parent.iterdir()] == ["page.png"]
 
 
+def test_the_blocks_of_the_page_on_fonts_run():
+    page = (DOCS / "fonts.md").read_text(encoding="utf-8")
+    blocks = re.findall(r"^```python\n(.*?)^```$", page, re.M | re.S)
+    assert len(blocks) == 5
+    names = {}
+    for block in blocks:
+        exec(block, names)
+    assert names["fb"].pixels[48:].any(axis=1).sum() > 8
+
+
 def test_the_blocks_of_the_page_on_adding_a_chip_run():
     page = (DOCS / "add_a_chip.md").read_text(encoding="utf-8")
     excerpts = {found["code"] for found in examples._EXCERPT.finditer(page)}

@@ -285,9 +285,9 @@ class Font:
         """
         if len(char) != 1:
             raise ValueError(f"char must be one character, not {char!r}")
-        from paneldraw.text.layout import render
+        from paneldraw.text.layout import cover
 
-        return render(char, self)[0]
+        return cover([char], self, "la")[0]
 
     def measure(self, text: str) -> tuple[int, int]:
         """Return (width, height) in pixels of a text, which may have several lines.

@@ -58,7 +58,12 @@ def render(text: str, font: Font | None = None, anchor: str = "la") -> tuple[NDA
     """
     font = font_of(font)
     check_anchor(anchor)
-    lines = [font._face.line(line) for line in split_lines(text)]
+    return cover(split_lines(text), font, anchor)
+
+
+def cover(texts: list[str], font: Font, anchor: str) -> tuple[NDArray[np.uint8], int, int]:
+    """Return what lines cover, one below the other, and where that lies from the point that they are anchored at."""
+    lines = [font._face.line(text) for text in texts]
     widest = max(line.advance for line in lines)
     side = _reach(anchor[0], widest)
     lefts = [side - _reach(anchor[0], line.advance) + line.left for line in lines]

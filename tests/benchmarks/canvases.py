@@ -321,8 +321,11 @@ def framebuf() -> Names:
     font = Font.builtin()
     columns = bytearray((font.width, font.height))
     for code in range(256):
-        glyph = font.glyph(chr(code))[:, : font.width]
-        columns += np.packbits(glyph > 0, axis=0, bitorder="little").tobytes()
+        glyph = np.zeros((font.height, font.width), bool)
+        # A soft hyphen has no columns.
+        lit = font.glyph(chr(code))[:, : font.width] > 0
+        glyph[:, : lit.shape[1]] = lit
+        columns += np.packbits(glyph, axis=0, bitorder="little").tobytes()
     folder = tempfile.TemporaryDirectory()
     atexit.register(folder.cleanup)
     path = Path(folder.name) / "font5x8.bin"

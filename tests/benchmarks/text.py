@@ -9,12 +9,18 @@ from itertools import cycle, islice
 import canvases
 from canvases import HEIGHT, WIDTH
 from measure import Against, Contest, Names, Row
+from PIL import ImageFont
+
+from paneldraw import Font
 
 N = 100
 STRINGS = 10_000
 
 EACH = "for x, y, s in take(): "
 POINTS = "for point, s in take_points(): "
+
+LINES = "for x, y, s in take_lines(): "
+LINE_POINTS = "for point, s in take_line_points(): "
 
 PEERS = (
     Against("Pillow", POINTS + "text(point, s, 1, font)", 3),
@@ -26,6 +32,18 @@ PEERS = (
 
 ROWS = [
     Row("text, 13 characters", N, EACH + "text(s, x, y)", PEERS),
+    Row(
+        "text, 21 characters",
+        N,
+        LINES + "text(s, x, y)",
+        (Against("Pillow", LINE_POINTS + "text(point, s, 1, font)", 3),),
+    ),
+    Row(
+        "text, 21 characters in Pillow's bitmap font",
+        N,
+        LINES + "text(s, x, y, font=BITMAPS)",
+        (Against("Pillow", LINE_POINTS + "text(point, s, 1, font)", 3),),
+    ),
     Row(
         "text, 13 characters, always the same",
         N,
@@ -47,9 +65,12 @@ def shapes() -> Names:
     places = [(pick.randrange(WIDTH - 78), pick.randrange(HEIGHT - 11)) for _ in range(STRINGS)]
     strings = [f"{k:04d}: {pick.randrange(10**6):6d}m" for k in range(STRINGS)]
     rows = [(x, y, s) for (x, y), s in zip(places, strings, strict=True)]
+    lines = [(x % 8, y, f"{s} {pick.randrange(10**6):6d}") for x, y, s in rows]
     return {
         "places": places[:N],
         "take": partial(islice, cycle(rows), N),
+        "take_lines": partial(islice, cycle(lines), N),
+        "take_line_points": partial(islice, cycle([((x, y), s) for x, y, s in lines]), N),
         "take_points": partial(islice, cycle(zip(places, strings, strict=True)), N),
     }
 
@@ -60,9 +81,14 @@ def pillow() -> Names:
     return names | {"draw_bitmap": names["core"].draw_bitmap, "getmask": names["font"].getmask}
 
 
+def ours() -> Names:
+    """Our calls, and Pillow's bitmap font as one of ours."""
+    return canvases.ours() | {"BITMAPS": Font.from_pillow(ImageFont.load_default_imagefont())}
+
+
 def contest(rounds: int) -> Contest:
     """Us and the peers."""
-    return Contest(canvases.ours(), canvases.PEERS | {"Pillow": pillow}, rounds, shapes())
+    return Contest(ours(), canvases.PEERS | {"Pillow": pillow}, rounds, shapes())
 
 
 def run(rounds: int) -> None:

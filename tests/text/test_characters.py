@@ -57,7 +57,7 @@ def test_a_hyphen_that_does_not_break_is_one(font):
     assert render("a\u2011b", font)[0].sum() in {render("a-b", font)[0].sum(), render("a\u2010b", font)[0].sum()}
 
 
-@pytest.mark.parametrize("char", ["\U0010ffff", "\ud800", "\x07", "\x00", "\ue123"])
+@pytest.mark.parametrize("char", ["\U0010ffff", "\ud800", "\x07", "\x00", "\ue123", "\r"])
 def test_what_is_missing_is_a_box(font, char):
     assert font.glyph(char).any()
     assert font.measure(f"a{char}b")[0] > font.measure("ab")[0]

@@ -30,6 +30,8 @@ def names(source: bytes) -> list[str]:
 def read(source: bytes, name: str, encoding: str | None) -> Strike:
     """Read the font of that name from a C source, or its only one."""
     arrays = {match[1].decode("ascii"): match.end() for match in _ARRAY.finditer(source)}
+    if not arrays:
+        raise DamagedFontError("a C source without an array u8g2_font_...")
     if name not in arrays and len(arrays) != 1:
         some = ", ".join(sorted(arrays)[:8]) + (", …" if len(arrays) > 8 else "")
         raise DamagedFontError(f"{len(arrays)} fonts: put the name of one behind the path and a #, of {some}")
