@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -36,8 +35,7 @@ class Picture(NamedTuple):
 NOTHING = Picture(np.zeros((0, 0), np.uint8), 0, 0, 0)
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Strike:
+class Strike(NamedTuple):
     """A bitmap font at its one size.
 
     Attributes
