@@ -188,6 +188,10 @@ def test_the_page_on_watching_names_all_that_a_url_can_ask_for():
     assert [file.name for file in screens.SCREEN.parent.iterdir()] == ["page.png"]
 
 
+@pytest.mark.skipif(
+    not (Path("/usr/share/fonts/opentype/terminus").exists() and Path("/usr/share/unifont/unifont.hex").exists()),
+    reason="its fonts are not installed",
+)
 def test_the_blocks_of_the_page_on_fonts_run():
     page = (DOCS / "fonts.md").read_text(encoding="utf-8")
     blocks = re.findall(r"^```python\n(.*?)^```$", page, re.M | re.S)

@@ -13,7 +13,7 @@ import numpy as np
 
 from paneldraw.text.font import Font, of_strike, outline
 from paneldraw.text.formats import DamagedFontError, Pictures, bdf, charsets, pcf, psf, u8g2, unifont
-from paneldraw.text.outline import characters_of, is_scalable
+from paneldraw.text.outline import characters_of, is_scalable, is_symbolic
 from paneldraw.text.strike import Picture, Strike
 
 if TYPE_CHECKING:
@@ -135,7 +135,8 @@ def _through_pillow(place: Path, size: float | None, antialias: bool) -> Font:
         if is_scalable(probe):
             if size is None:
                 raise ValueError(f"size must be given: {place.name} is drawn at any, in pixels to the em")
-            return outline(probe.font_variant(size=size), None, antialias)
+            charmap = "symb" if is_symbolic(probe) else ""
+            return outline(ImageFont.truetype(str(place), size, encoding=charmap), None, antialias)
     except OSError as error:
         if "pixel size" not in str(error):
             raise DamagedFontError(f"{error}; {_KINDS}") from error

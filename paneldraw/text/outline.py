@@ -21,10 +21,19 @@ LARGEST_TABLE = 1 << 22
 
 def characters_of(font: ImageFont.FreeTypeFont) -> Callable[[int], bool]:
     """Return what says whether a font has a character: its table of characters, else a look at what is drawn."""
-    lookup = None
-    with contextlib.suppress(OSError, struct.error, ValueError, IndexError, OverflowError):
-        lookup = _lookup(_bytes_of(font), getattr(font, "index", 0))
+    _, lookup = _table_of(font)
     return (lambda code: lookup(code) != 0) if lookup is not None else _drawn(font)
+
+
+def is_symbolic(font: ImageFont.FreeTypeFont) -> bool:
+    """Whether a font has a table of symbols alone, whose codes Windows puts at F000; Pillow calls it ``symb``."""
+    return _table_of(font)[0] == _SYMBOLS
+
+
+def _table_of(font: ImageFont.FreeTypeFont) -> tuple[tuple[int, int], Lookup | None]:
+    with contextlib.suppress(OSError, struct.error, ValueError, IndexError, OverflowError):
+        return _lookup(_bytes_of(font), getattr(font, "index", 0))
+    return _NONE
 
 
 def is_scalable(font: ImageFont.FreeTypeFont) -> bool:
@@ -55,8 +64,8 @@ def _bytes_of(font: ImageFont.FreeTypeFont) -> io.BufferedIOBase:
     return io.BytesIO(font.path.getvalue()) if isinstance(font.path, io.BytesIO) else io.BytesIO()
 
 
-def _lookup(file: io.BufferedIOBase, index: int) -> Lookup | None:
-    """Return the glyph number of a character by the table ``cmap`` of a font of TrueType's or OpenType's form."""
+def _lookup(file: io.BufferedIOBase, index: int) -> tuple[tuple[int, int], Lookup | None]:
+    """Return what tells the glyph of a character, the table ``cmap`` of a font of TrueType's or OpenType's form."""
     with file:
         start = 0
         if file.read(4) == b"ttcf":
@@ -65,20 +74,23 @@ def _lookup(file: io.BufferedIOBase, index: int) -> Lookup | None:
         file.seek(start)
         kind, count = struct.unpack(">4sH6x", file.read(12))
         if kind not in (b"\0\1\0\0", b"OTTO", b"true", b"typ1"):
-            return None
+            return _NONE
         directory = file.read(16 * count)
         for tag, _, offset, length in struct.iter_unpack(">4sIII", directory[: len(directory) // 16 * 16]):
             if tag == b"cmap":
                 file.seek(offset)
                 return _best(file.read(min(length, LARGEST_TABLE)))
-    return None
+    return _NONE
 
 
-# By platform and encoding, the ones that know more first: all of Unicode, then its first plane.
-_PREFERRED = ((3, 10), (0, 6), (0, 4), (3, 1), (0, 3), (0, 2), (0, 1), (0, 0))
+_NONE = (-1, -1), None
+_SYMBOLS = (3, 0)
+
+# By platform and encoding, the ones that know more first: all of Unicode, then its first plane, then symbols.
+_PREFERRED = ((3, 10), (0, 6), (0, 4), (3, 1), (0, 3), (0, 2), (0, 1), (0, 0), _SYMBOLS)
 
 
-def _best(table: bytes) -> Lookup | None:
+def _best(table: bytes) -> tuple[tuple[int, int], Lookup | None]:
     (count,) = struct.unpack_from(">2xH", table)
     places = {(p, e): at for p, e, at in (struct.unpack_from(">HHI", table, 4 + 8 * k) for k in range(count))}
     for key in _PREFERRED:
@@ -87,8 +99,8 @@ def _best(table: bytes) -> Lookup | None:
             read = {0: _format_0, 4: _format_4, 6: _format_6, 12: _format_12, 13: _format_12}
             form = struct.unpack_from(">H", sub)[0]
             if form in read:
-                return read[form](sub)
-    return None
+                return key, read[form](sub)
+    return _NONE
 
 
 def _format_0(sub: bytes) -> Lookup:

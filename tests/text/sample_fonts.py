@@ -1,15 +1,24 @@
-"""The letter A and a few others in every format of bitmap fonts, written here."""
+"""The letter A and a few others in every format of bitmap fonts, written here; and fonts of Debian's packages."""
 
 from __future__ import annotations
 
+import os
 import struct
 
 import numpy as np
+import pytest
 
 A = np.array([[int(char == "#") for char in row] for row in (".##.", "#..#", "####", "#..#", "#..#")], np.uint8)
 """Stands on the baseline of a line of 6 rows, 1 of them below, 5 columns from pen to pen."""
 
 DOT = np.ones((1, 1), np.uint8)
+
+
+def installed(path):
+    """A font of a package in .ci/apt-packages: CI has it, others may go without."""
+    if not path.exists():
+        (pytest.fail if os.environ.get("CI") else pytest.skip)(f"{path} is not installed")
+    return path
 
 
 CHARACTERS = ((65, A, 0, 0, 5), (32, np.zeros((0, 0), np.uint8), 0, 0, 5), (46, DOT, 1, 0, 3))

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from PIL import Image, ImageDraw, ImageFont
+from sample_fonts import installed
 
 from paneldraw import Font, Framebuffer
 
@@ -32,13 +33,6 @@ BITMAPS = {
 }
 
 
-def needed(path):
-    """A font of a package in .ci/apt-packages."""
-    if not path.exists():
-        pytest.skip(f"{path.name} is not installed")
-    return path
-
-
 def shift(anchor):
     """Pillow's lines lie between pixels; a coordinate here names the pixel before, but left and top the one behind."""
     return anchor[0] != "l", anchor[1] not in "at"
@@ -62,11 +56,11 @@ def same(font, pillow, mode):
 @pytest.mark.parametrize("size", [7, 12, 17, 30.5])
 @pytest.mark.parametrize("name", OUTLINES)
 def test_outlines(name, size, antialias):
-    path = needed(OUTLINES[name])
+    path = installed(OUTLINES[name])
     same(Font.load(path, size, antialias=antialias), ImageFont.truetype(path, size), "L" if antialias else "1")
 
 
 @pytest.mark.parametrize("name", BITMAPS)
 def test_bitmaps(name):
     path, size = BITMAPS[name]
-    same(Font.load(needed(path), size), ImageFont.truetype(path, size), "1")
+    same(Font.load(installed(path), size), ImageFont.truetype(path, size), "1")

@@ -16,15 +16,17 @@ from paneldraw.text import render
 
 DEJAVU = Path("/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf")
 UNIFONT = Path("/usr/share/unifont/unifont.hex")
+X11 = Path("/usr/share/fonts/X11/misc/6x13-ISO8859-1.pcf.gz")
+TERMINUS = Path("/usr/share/fonts/opentype/terminus/terminus-normal.otb")
 
 FONTS = {
     "built-in": Font.builtin,
-    "outline": lambda: Font.load(DEJAVU, 13),
-    "smooth": lambda: Font.load(DEJAVU, 13, antialias=True),
-    "scaled outline": lambda: Font.load(DEJAVU, 13).scaled(2),
-    "bitmap": lambda: Font.load("/usr/share/fonts/X11/misc/6x13-ISO8859-1.pcf.gz"),
-    "bitmap of OpenType": lambda: Font.load("/usr/share/fonts/opentype/terminus/terminus-normal.otb", 12),
-    "Unifont": lambda: Font.load(UNIFONT),
+    "outline": lambda: Font.load(sample.installed(DEJAVU), 13),
+    "smooth": lambda: Font.load(sample.installed(DEJAVU), 13, antialias=True),
+    "scaled outline": lambda: Font.load(sample.installed(DEJAVU), 13).scaled(2),
+    "bitmap": lambda: Font.load(sample.installed(X11)),
+    "bitmap of OpenType": lambda: Font.load(sample.installed(TERMINUS), 12),
+    "Unifont": lambda: Font.load(sample.installed(UNIFONT)),
     "Pillow's": lambda: Font.from_pillow(ImageFont.load_default_imagefont()),
 }
 
@@ -64,14 +66,14 @@ def test_what_is_missing_is_a_box(font, char):
 
 
 def test_a_box_stands_on_the_baseline():
-    font = Font.load(DEJAVU, 13)
+    font = Font.load(sample.installed(DEJAVU), 13)
     box = font.glyph("\U0010ffff")
     assert box[font.baseline].sum() == box[font.baseline - 8].sum() > 0
     assert not box[font.baseline + 1 :].any()
 
 
 def test_others_are_looked_in_for_what_is_missing(font):
-    unifont = Font.load(UNIFONT)
+    unifont = Font.load(sample.installed(UNIFONT))
     both = font.with_fallback(unifont)
     assert both.height == font.height
     coverage, _, dy = render("中", both, "ls")
@@ -83,7 +85,7 @@ def test_others_are_looked_in_for_what_is_missing(font):
 
 
 def test_fallbacks_are_asked_in_their_order():
-    unifont, outline = Font.load(UNIFONT), Font.load(DEJAVU, 13)
+    unifont, outline = Font.load(sample.installed(UNIFONT)), Font.load(sample.installed(DEJAVU), 13)
     assert (Font.builtin().with_fallback(outline, unifont).glyph("Ж") != 0).sum() == (outline.glyph("Ж") != 0).sum()
     assert (Font.builtin().with_fallback(unifont, outline).glyph("Ж") != 0).sum() == (unifont.glyph("Ж") != 0).sum()
     with pytest.raises(TypeError, match="Font"):
@@ -96,7 +98,7 @@ LETTERS = "ÖÜÉÈÑ" + "ẤỆỐŰǺĢķ" + "fjQ_/|"
 @pytest.mark.parametrize("antialias", [False, True])
 @pytest.mark.parametrize("size", [5, 8, 10, 13, 24])
 def test_no_ink_is_cut(size, antialias):
-    outline = ImageFont.truetype(DEJAVU, size)
+    outline = ImageFont.truetype(sample.installed(DEJAVU), size)
     font = Font.from_pillow(outline, antialias=antialias)
     for text in (*LETTERS, LETTERS):
         coverage, dx, dy = render(text, font, "ls")
@@ -134,25 +136,27 @@ def test_overlapping_letters_are_painted_once(tmp_path):
 @pytest.mark.parametrize("text", ["jA", "/x", "ÀÅ", "ffi", "__"])
 def test_crisp_or_smooth_text_stands_at_the_same_place(text):
     for size in (9, 13, 20, 40):
-        crisp, smooth = (render(text, Font.load(DEJAVU, size, antialias=choice), "ls") for choice in (False, True))
+        crisp, smooth = (
+            render(text, Font.load(sample.installed(DEJAVU), size, antialias=choice), "ls") for choice in (False, True)
+        )
         columns = [np.flatnonzero((cover >= 96).any(axis=0)) + dx for cover, dx, _ in (crisp, smooth)]
         assert abs(int(columns[0][0]) - int(columns[1][0])) <= 1
         assert crisp[2] - smooth[2] in (-1, 0, 1)
 
 
 def test_a_first_letter_that_overhangs_moves_nothing():
-    font = Font.load(DEJAVU, 40)
+    font = Font.load(sample.installed(DEJAVU), 40)
     for text in ("jX", "/X"):
         assert render(text, font)[1] <= 0
         fb = Framebuffer(100, 60)
         fb.text(text, 20, 5, font=font)
         alone = Framebuffer(100, 60)
-        alone.text("X", 20 + round(ImageFont.truetype(DEJAVU, 40).getlength(text[0])), 5, font=font)
+        alone.text("X", 20 + round(ImageFont.truetype(sample.installed(DEJAVU), 40).getlength(text[0])), 5, font=font)
         assert np.flatnonzero(fb.pixels.any(axis=0))[-1] == np.flatnonzero(alone.pixels.any(axis=0))[-1]
 
 
 def test_pictures_of_lines_are_kept_and_bounded():
-    font = Font.load(DEJAVU, 12)
+    font = Font.load(sample.installed(DEJAVU), 12)
     assert font._face.line("21.5") is font._face.line("21.5")
     for number in range(3000):
         font.measure(f"{number:040d}")

@@ -120,6 +120,9 @@ def test_folders_of_every_system(tmp_path, monkeypatch):
 
 
 def test_fonts_of_debians_packages():
+    for path in ("opentype/terminus/terminus-normal.otb", "truetype/dejavu/DejaVuSans.ttf", "X11/misc/6x13.pcf.gz"):
+        sample.installed(Path("/usr/share/fonts", path))
+    sample.installed(Path("/usr/share/unifont/unifont.hex"))
     assert Font.find("terminus", 16).name == "Terminus"
     assert Font.find("DejaVu Sans", 12).name == "DejaVu Sans Book"
     assert Font.find("DejaVu Sans Mono", 12, bold=True).name == "DejaVu Sans Mono Bold"

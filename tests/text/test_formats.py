@@ -15,6 +15,7 @@ from paneldraw.text import render
 
 X11 = Path("/usr/share/fonts/X11/misc")
 CONSOLE = Path("/usr/share/consolefonts")
+DEJAVU = Path("/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf")
 UNIFONT = Path("/usr/share/unifont/unifont.hex")
 
 FILES = {
@@ -176,7 +177,7 @@ def test_a_bitmap_font_has_its_own_size(tmp_path):
     assert load(tmp_path, "sample.bdf", sample.bdf(), 6).height == 6
     with pytest.raises(ValueError, match=r"sample\.bdf has the size 6, not 13; font\.scaled\(2\)"):
         load(tmp_path, "sample.bdf", sample.bdf(), 13)
-    path = Path("/usr/share/fonts/opentype/terminus/terminus-normal.otb")
+    path = sample.installed(Path("/usr/share/fonts/opentype/terminus/terminus-normal.otb"))
     with pytest.raises(ValueError, match="sizes 12, 14, 16, 18, 20, 22, 24, 28, 32, not 13"):
         Font.load(path, 13)
     with pytest.raises(ValueError, match=r"one of those of terminus-normal\.otb: 12, 14"):
@@ -190,6 +191,17 @@ def test_outlines_want_a_size(tmp_path):
         load(tmp_path, "face.ttf", data)
     font = load(tmp_path, "face.ttf", data, 10)
     assert (render("file", font)[0] == render("file", Font.truetype(tmp_path / "face.ttf", 10))[0]).all()
+
+
+def test_fonts_of_symbols_are_reached_by_their_codes(tmp_path):
+    """An outline font whose one table of characters is called that of symbols."""
+    data = bytearray(sample.installed(DEJAVU).read_bytes())
+    at = int.from_bytes(data[data.index(b"cmap") + 8 :][:4], "big")
+    places = {bytes(data[k : k + 4]): data[k + 4 : k + 8] for k in range(at + 4, at + 4 + 8 * data[at + 3], 8)}
+    data[at + 2 : at + 12] = b"\0\1" + b"\0\3\0\0" + places[b"\0\3\0\1"]
+    font = load(tmp_path, "symbols.ttf", bytes(data), 12)
+    assert (font.glyph("A") == Font.load(DEJAVU, 12).glyph("A")).all()
+    assert (font.glyph("\ue000") == font.glyph("\ue001")).all()
 
 
 def test_several_fonts_in_one_source(tmp_path):
@@ -212,7 +224,7 @@ def freetype(path, size):
 )
 def test_pcf_as_freetype_reads_it(path, size):
     """Some 150 characters of fonts of Debian's packages, their places and advances too."""
-    font, theirs = Font.load(path), freetype(path, size)
+    font, theirs = Font.load(sample.installed(path)), freetype(path, size)
     ascent, descent = theirs.getmetrics()
     assert (font.baseline + 1, font.height) == (ascent, ascent + descent)
     pictures = font._face.strike.pictures
@@ -230,15 +242,15 @@ def test_pcf_as_freetype_reads_it(path, size):
 
 
 def test_fonts_of_the_console():
-    font = Font.load(CONSOLE / "Uni2-Terminus16.psf.gz")
-    x11 = Font.load(X11 / "ter-u16n_unicode.pcf.gz")
+    font = Font.load(sample.installed(CONSOLE / "Uni2-Terminus16.psf.gz"))
+    x11 = Font.load(sample.installed(X11 / "ter-u16n_unicode.pcf.gz"))
     assert (font.height, font.advance, font.baseline) == (16, 8, x11.baseline)
     for char in "AgÄß№€Ж┼":
         assert (font.glyph(char) == x11.glyph(char)).all(), char
 
 
 def test_unifont():
-    font = Font.load(UNIFONT)
+    font = Font.load(sample.installed(UNIFONT))
     assert (font.height, font.baseline, font.advance) == (16, 13, 8)
     assert font.measure("A中") == (24, 16)
     assert render("q\u0303", font)[0].shape == (16, 8)
