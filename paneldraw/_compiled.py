@@ -23,6 +23,7 @@ MODULES = (
     "paneldraw.framebuffer.painter",
     "paneldraw.framebuffer.copying",
     "paneldraw.framebuffer.framebuffer",
+    "paneldraw.compat.framebuf",
     "paneldraw.controllers.packing",
     "paneldraw.update.order",
     "paneldraw.update.messages",
