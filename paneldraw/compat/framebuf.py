@@ -53,6 +53,7 @@ _FORMATS = {
     GS8: (8, 0),
 }
 _LARGEST = 0xFFFF
+_WHOLE = tuple("bBhHiIlLqQ")
 #: Coordinates and sizes beyond are more than MicroPython's own numbers bear on a microcontroller.
 _REACH = cython.declare(cython.longlong, 1 << 27)
 _LONGEST_RADIUS = cython.declare(cython.longlong, 1 << 18)
@@ -169,10 +170,7 @@ class Packed:
                 self.row(row * self.stride + x, row * self.stride + right, level)
             return
         for row in range(y >> 3, (bottom + 7) >> 3):
-            # The rows of this page that are in the rectangle.
-            first: cython.int = max(y - 8 * row, 0)
-            last: cython.int = min(bottom - 8 * row, 8)
-            self.mix(row * self.stride + x, right - x, (0xFF << first & 0xFF) & (0xFF >> (8 - last)), level * 0xFF)
+            self.mix(row * self.stride + x, right - x, _rows(row, y, bottom), level * 0xFF)
 
     @cython.cfunc
     @cython.nogil
@@ -188,11 +186,8 @@ class Packed:
         level *= 0xFF // self.mask
         first: cython.longlong = start * self.bits
         last: cython.longlong = stop * self.bits - 1
-        # The bits of the first byte from the first pixel on, and of the last one up to the last.
-        head: cython.int = first & 7
-        tail: cython.int = 7 - (last & 7)
-        head = 0xFF >> head if self.flip else 0xFF << head & 0xFF
-        tail = 0xFF << tail & 0xFF if self.flip else 0xFF >> tail
+        head: cython.int = self.head(first & 7)
+        tail: cython.int = self.tail(last & 7)
         first >>= 3
         last >>= 3
         if first == last:
@@ -201,6 +196,22 @@ class Packed:
         self.mix(first, 1, head, level)
         self.mix(first + 1, last - first - 1, 0xFF, level)
         self.mix(last, 1, tail, level)
+
+    @cython.cfunc
+    @cython.inline
+    @cython.nogil
+    @cython.exceptval(check=False)
+    def head(self, bit: cython.int) -> cython.int:
+        """The bits of a byte from number `bit` on, in the order of pixels."""
+        return 0xFF >> bit if self.flip else 0xFF << bit & 0xFF
+
+    @cython.cfunc
+    @cython.inline
+    @cython.nogil
+    @cython.exceptval(check=False)
+    def tail(self, bit: cython.int) -> cython.int:
+        """The bits of a byte up to number `bit`, in the order of pixels."""
+        return 0xFF << (7 - bit) & 0xFF if self.flip else 0xFF >> (7 - bit)
 
     @cython.cfunc
     @cython.inline
@@ -394,11 +405,11 @@ def _four(
 
 def _corners(coords: Any) -> list[tuple[int, int]]:
     """The corners of a polygon, from an array of whole numbers; what is one too many counts for nothing."""
-    numbers = np.asarray(memoryview(coords)).ravel()
-    if numbers.dtype.kind not in "iu":
-        raise TypeError(f"coords must be an array of whole numbers, not of typecode {memoryview(coords).format!r}")
-    numbers = numbers[: numbers.size & ~1].tolist()
-    if max(map(abs, numbers), default=0) > _REACH:
+    view = memoryview(coords)
+    if view.ndim != 1 or view.format not in _WHOLE:
+        raise TypeError(f"coords must be an array of whole numbers in a row, not of typecode {view.format!r}")
+    numbers = view[: len(view) & ~1].tolist()
+    if numbers and (max(numbers) > _REACH or min(numbers) < -_REACH):
         raise OverflowError(f"coords reach beyond +-{_REACH}")
     return list(zip(numbers[::2], numbers[1::2], strict=True))
 
@@ -501,16 +512,85 @@ def _blit(
 @cython.nogil
 @cython.exceptval(check=False)
 def _scroll(packed: Packed, dx: cython.longlong, dy: cython.longlong) -> cython.void:
-    """Move all pixels, those first that others move to."""
-    x: cython.longlong
-    y: cython.longlong
+    """Move all pixels, byte by byte, those first that others move to."""
+    k: cython.longlong
+    line: cython.longlong
+    source: cython.longlong
+    left: cython.longlong = max(dx, 0)
+    right: cython.longlong = packed.width + min(dx, 0)
+    top: cython.longlong = max(dy, 0)
+    bottom: cython.longlong = packed.height + min(dy, 0)
+    if left >= right or top >= bottom:
+        return
+    if packed.down:
+        for k in range(((bottom - 1) >> 3) - (top >> 3) + 1):
+            line = (top >> 3) + k if dy < 0 else ((bottom - 1) >> 3) - k
+            source = 8 * line - dy
+            mask: cython.int = _rows(line, top, bottom)
+            first: cython.longlong = (source >> 3) * packed.stride + left - dx
+            to: cython.longlong = line * packed.stride + left
+            _move(packed, to, right - left, first, packed.stride, source & 7, mask, mask, mask, dx > 0)
+        return
+    line_bytes: cython.longlong = packed.stride * packed.bits >> 3
+    start: cython.longlong = left * packed.bits
+    stop: cython.longlong = right * packed.bits - 1
+    head: cython.int = packed.head(start & 7)
+    tail: cython.int = packed.tail(stop & 7)
+    source = (start & ~7) - dx * packed.bits
+    for k in range(bottom - top):
+        line = top + k if dy < 0 else bottom - 1 - k
+        to = line * line_bytes + (start >> 3)
+        first = (line - dy) * line_bytes + (source >> 3)
+        _move(packed, to, (stop >> 3) - (start >> 3) + 1, first, 1, source & 7, head, 0xFF, tail, dx > 0)
+
+
+@cython.cfunc
+@cython.inline
+@cython.nogil
+@cython.exceptval(check=False)
+def _rows(page: cython.longlong, top: cython.longlong, bottom: cython.longlong) -> cython.int:
+    """The bits of a page that the rows ``top <= y < bottom`` have, of which there are some."""
+    return (0xFF << max(top - 8 * page, 0) & 0xFF) & (0xFF >> (8 - min(bottom - 8 * page, 8)))
+
+
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def _move(
+    packed: Packed,
+    to: cython.longlong,
+    count: cython.longlong,
+    source: cython.longlong,
+    other: cython.longlong,
+    shift: cython.int,
+    head: cython.int,
+    inner: cython.int,
+    tail: cython.int,
+    backwards: cython.bint,
+) -> cython.void:
+    """Move bytes: each is what is left of one after `shift` pixels' bits, and those of the byte `other` further on.
+
+    Of the first byte the bits of `head` arrive, of the last those of `tail`.
+    """
     i: cython.longlong
     k: cython.longlong
-    for k in range(packed.height - abs(dy)):
-        y = k if dy < 0 else packed.height - 1 - k
-        for i in range(packed.width - abs(dx)):
-            x = i if dx < 0 else packed.width - 1 - i
-            packed.put(x, y, packed.get(x - dx, y - dy))
+    near: cython.int
+    far: cython.int
+    mask: cython.int
+    for k in range(count):
+        i = count - 1 - k if backwards else k
+        near = packed.data[source + i] if 0 <= source + i < packed.size else 0
+        far = packed.data[source + i + other] if shift and 0 <= source + i + other < packed.size else 0
+        if packed.flip:
+            near = near << shift | far >> (8 - shift)
+        else:
+            near = near >> shift | far << (8 - shift)
+        mask = inner
+        if i == 0:
+            mask &= head
+        if i == count - 1:
+            mask &= tail
+        packed.data[to + i] = (packed.data[to + i] & ~mask) | (near & mask)
 
 
 _own_letters: bytes | None = None
