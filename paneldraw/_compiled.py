@@ -23,6 +23,7 @@ MODULES = (
     "paneldraw.framebuffer.painter",
     "paneldraw.framebuffer.copying",
     "paneldraw.framebuffer.framebuffer",
+    "paneldraw.compat.packed",
     "paneldraw.compat.framebuf",
     "paneldraw.controllers.packing",
     "paneldraw.update.order",

@@ -20,6 +20,7 @@ from urllib.parse import urlsplit
 import paneldraw
 from paneldraw.errors import TransportError
 from paneldraw.transports import I2CTransport
+from paneldraw.transports.i2c import probe
 
 if TYPE_CHECKING:
     from paneldraw.panel import Panel
@@ -213,7 +214,7 @@ def _search(found: Found, bus: Any, title: str, url: str) -> None:
     answers = 0
     for address in range(0x08, 0x78):
         try:
-            _probe(bus, address)
+            probe(bus, address)
         except OSError as error:
             if error.errno in NOBODY:
                 continue
@@ -226,19 +227,6 @@ def _search(found: Found, bus: Any, title: str, url: str) -> None:
         answers += 1
     if not answers:
         found.lines.append(f"{title}: nobody answers")
-
-
-def _probe(bus: Any, address: int) -> None:
-    """Ask in the way that is least likely to change anything: these ranges hold memories that a write would upset."""
-    if 0x30 <= address <= 0x37 or 0x50 <= address <= 0x5F:
-        bus.read_byte(address)
-        return
-    try:
-        bus.write_quick(address)
-    except OSError as error:
-        if error.errno != errno.EOPNOTSUPP:
-            raise
-        bus.read_byte(address)
 
 
 def _guess(bus: Any, address: int, found: Found, url: str) -> str:

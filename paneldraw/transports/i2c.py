@@ -323,6 +323,19 @@ class I2CTransport:
         return True
 
 
+def probe(bus: Any, address: int) -> None:
+    """Ask in the way that is least likely to change anything: these ranges hold memories that a write would upset."""
+    if 0x30 <= address <= 0x37 or 0x50 <= address <= 0x5F:
+        bus.read_byte(address)
+        return
+    try:
+        bus.write_quick(address)
+    except OSError as error:
+        if error.errno != errno.EOPNOTSUPP:
+            raise
+        bus.read_byte(address)
+
+
 class _TooMuchError(Exception):
     """The adapter does not take such messages, so many, or so long."""
 

@@ -29,6 +29,7 @@ FORMATS = {
     "RGB565": (16, 1),
 }
 
+
 @dataclass(frozen=True)
 class Script:
     """Calls on a buffer of `size` bytes, as text that both Pythons read."""
@@ -236,8 +237,14 @@ def main():
     asked = scripts(1, 400)
     with tempfile.TemporaryDirectory() as folder:
         answers = MicroPython(Path(folder)).drawn(asked)
-    lines = [f"# What MicroPython {VERSION} draws: bytes, arguments, calls and the buffer after them; made by", f"# {'/'.join(Path(__file__).parts[-3:])}"]
-    lines += [f"{one.size} | {one.arguments} | {one.calls} | {buffer.hex()}" for one, buffer in zip(asked, answers, strict=True)]
+    lines = [
+        f"# What MicroPython {VERSION} draws: bytes, arguments, calls and the buffer after them; made by",
+        f"# {'/'.join(Path(__file__).parts[-3:])}",
+    ]
+    lines += [
+        f"{one.size} | {one.arguments} | {one.calls} | {buffer.hex()}"
+        for one, buffer in zip(asked, answers, strict=True)
+    ]
     TABLE.write_text("\n".join(lines) + "\n", encoding="utf-8")
 
 
