@@ -120,17 +120,18 @@ _own_letters: bytes | None = None
 
 
 def _letters() -> bytes:
-    """Our letters, drawn once."""
+    """Our letters, in the middle of their cells; drawn once."""
     global _own_letters
     if _own_letters is None:
         from paneldraw.text import Font
 
         drawn = Font.builtin()
-        cells = np.zeros((96, 8, 8), np.uint8)
+        left = (8 - drawn.advance) // 2
+        cells = np.zeros((96, 8, 8), np.bool_)
         for k in range(96):
-            glyph = drawn.glyph(chr(32 + k))[:8, :7]
-            cells[k, : glyph.shape[0], 1 : 1 + glyph.shape[1]] = glyph
-        _own_letters = np.packbits(cells != 0, axis=1, bitorder="little").tobytes()
+            glyph = drawn.glyph(chr(32 + k))[:, : drawn.advance]
+            cells[k, :, left : left + glyph.shape[1]] = glyph
+        _own_letters = np.packbits(cells, axis=1, bitorder="little").tobytes()
     return _own_letters
 
 
