@@ -16,7 +16,7 @@ NO_GROUPS = ("run", "measure", "peers", "canvases", "link")
 GROUPS = sorted(file.stem for file in FOLDER.glob("*.py") if file.stem not in NO_GROUPS)
 
 
-DRAWING = ("lines", "shapes", "pixels", "text")
+DRAWING = ("lines", "shapes", "pixels", "text", "packed")
 #: How much peers cover, where we cover 1. OpenCV's thick lines are thicker than it says.
 LEAST, MOST = 0.7, 2
 
