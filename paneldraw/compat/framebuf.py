@@ -264,9 +264,10 @@ class FrameBuffer:
         Examples
         --------
         >>> from paneldraw.compat import framebuf
-        >>> fb = framebuf.FrameBuffer(bytearray(8), 8, 8, framebuf.MONO_HLSB)
+        >>> buffer = bytearray(8)
+        >>> fb = framebuf.FrameBuffer(buffer, 8, 8, framebuf.MONO_HLSB)
         >>> fb.ellipse(3, 3, 3, 3, 1, True, 3)
-        >>> print(*(f"{row:08b}".replace("0", ".") for row in bytes(fb)[:5]), sep="\\n")
+        >>> print(*(f"{row:08b}".replace("0", ".") for row in buffer[:5]), sep="\\n")
         ..111...
         .11111..
         1111111.
@@ -368,7 +369,9 @@ def FrameBuffer1(buffer: Buffer, width: Index, height: Index, stride: Index | No
     Examples
     --------
     >>> from paneldraw.compat import framebuf
-    >>> bytes(framebuf.FrameBuffer1(bytearray(4), 4, 8))
-    b'\\x00\\x00\\x00\\x00'
+    >>> buffer = bytearray(4)
+    >>> framebuf.FrameBuffer1(buffer, 4, 8).fill(1)
+    >>> buffer.hex()
+    'ffffffff'
     """
     return FrameBuffer(buffer, width, height, MONO_VLSB, stride)

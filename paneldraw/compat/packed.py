@@ -151,7 +151,7 @@ class Packed:
             for i in range(at, at + count):
                 self.data[i] = (self.data[i] & ~mask) | (value & mask)
         elif cython.compiled:
-            memset(self.data + at, value, cython.cast(cython.size_t, count))
+            memset(self.data + at, cython.cast(cython.uchar, value), cython.cast(cython.size_t, count))
         else:
             self.data[at : at + count] = bytes([value]) * count
 
@@ -264,10 +264,11 @@ def fill_row(packed, sides, x, y, row, level):
 
 
 def _quotient(a, b):
-    """The whole part of a / b, toward zero."""
-    if cython.compiled:
-        return a // b
-    return abs(a) // abs(b) * (1 if (a < 0) == (b < 0) else -1)
+    """The whole part of a / b, toward zero as in C."""
+    quotient: cython.longlong = a // b
+    if not cython.compiled and quotient < 0 and quotient * b != a:
+        quotient += 1
+    return quotient
 
 
 def write(packed, text, count, letters, x, y, level):

@@ -228,6 +228,25 @@ def test_an_output_pin():
     assert (pin(), pin.value()) == (1, 1)
 
 
+def test_a_line_of_this_machine_is_taken_once(monkeypatch):
+    claimed = []
+
+    class GPIO(Lines):
+        def __init__(self, gpiochip):
+            super().__init__()
+
+        def claim(self, line, *, high):
+            claimed.append((line, high))
+
+    monkeypatch.setattr(machine, "GPIO", GPIO)
+    monkeypatch.setattr(machine.Pin, "_lines", {})
+    machine.Pin(17, machine.Pin.OUT, value=1)
+    again = machine.Pin(17)
+    again.init(again.OUT, value=0)
+    assert claimed == [(17, True)]
+    assert machine.Pin._lines[17].set_to == [(17, True), (17, False)]
+
+
 def test_a_pin_that_is_only_named_is_not_taken():
     pin = machine.Pin(22)
     pin.value(1)
