@@ -20,7 +20,7 @@ except ImportError:  # Windows
 #: Bytes of the shortest message a device sends; waiting for all of them at once saves half the system calls.
 SHORTEST = wire_size(1)
 
-_READ_TIMEOUT = 0.02
+_READ_TIMEOUT = 0.005
 #: Bytes taken at a time, however many wait.
 _MOST = 4096
 

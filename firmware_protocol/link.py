@@ -46,7 +46,7 @@ from firmware_protocol.messages import (
     cause_text,
     encode,
 )
-from firmware_protocol.pace import Pace, Work
+from firmware_protocol.pace import Pace, RoundTrip, Work
 from firmware_protocol.runs import LEAST_PAYLOAD, Run
 
 #: Seconds between two attempts to be heard, to begin with.
@@ -55,7 +55,8 @@ PATIENCE = 0.25
 ATTEMPTS = 7
 #: How often it is asked at a faster rate before the first rate is tried: it may have restarted.
 HOPES = 2
-#: How often it is asked again at once, in one recovery, as something came damaged: its answer, perhaps.
+#: How often it is asked early in one recovery: at once, as something came damaged, its answer perhaps, or when the
+#: answer is later than it should be.
 HURRIES = 2
 #: Seconds after which a faster rate that failed is tried again, to begin with and at most; twice as long each time.
 RATE_AGAIN = 10.0
@@ -135,9 +136,12 @@ class HostLink:
         self.device = HelloReply(0)
         self._pace = Pace(self.device, BASE_BAUDRATE)
         self._wanted_rate = baudrate
-        # What is not acknowledged, and the sizes on the wire of that part of it that is under way.
+        # What is not acknowledged; of that part of it that is under way the sizes on the wire, and seconds on the bus.
         self._work: deque[Work] = deque()
         self._sizes: deque[int] = deque()
+        self._on_bus: deque[float] = deque()
+        self._trip = RoundTrip()
+        self._since = 0.0  # when the device could begin with the oldest frame under way
         self._token = self._first = 0
         self._last_rate = BASE_BAUDRATE  # that the device may still listen at
         self._fast_again = math.inf  # when a faster rate that failed is due again
@@ -304,6 +308,7 @@ class HostLink:
         self._in_session = False
         self._work.clear()
         self._sizes.clear()
+        self._on_bus.clear()
         self._base = 0
         self._polling: int | None = None
         self._failures = self._hurries = 0
@@ -447,8 +452,10 @@ class HostLink:
             if sizes and (under_way > self._pace.window or len(sizes) >= MAX_IN_FLIGHT):
                 break
             sizes.append(len(frame))
+            self._on_bus.append(self._pace.on_bus(kind, payload))
             batch.append(frame)
         if idle:
+            self._since = self.clock()
             self._expect()
         if batch:
             self.stats.frames += len(batch)
@@ -472,12 +479,10 @@ class HostLink:
     def _handle(self, message: Message) -> None:
         match message:
             case Ack(seq, fault):
-                self._done((seq - self._base & 0xFF) + 1)
+                self._done((seq - self._base & 0xFF) + 1, learn=True)
                 self._fault = self._fault or fault
             case Nak():
                 self.stats.naks += 1
-                if self._polling is None:
-                    self._pace.slow_down()
                 self._poll()
             case Status(token) if self._answers(token):
                 if message.boot != self.device.boot:
@@ -495,16 +500,21 @@ class HostLink:
         """Whether a STATUS answers any POLL of the present recovery: what was sent before one was sent before all."""
         return self._polling is not None and self._polling - token & 0xFF <= self._polling - self._first & 0xFF
 
-    def _done(self, count: int) -> None:
+    def _done(self, count: int, learn: bool = False) -> None:
         """Retire the ``count`` oldest frames; more than are under way means an old acknowledgement."""
         if count > len(self._sizes):
             return
+        needed = sum(islice(self._sizes, count)) * 10 / self.baudrate
         for _ in range(count):
             self._sizes.popleft()
+            self._on_bus.popleft()
             self._work.popleft()
         self._base = self._base + count & 0xFF
         self._failures = 0
         self._progress = self.clock()
+        if learn:
+            self._trip.took(self._progress - self._since - needed)
+        self._since = self._progress
         self._pace.speed_up(count)
         self._expect()
 
@@ -515,8 +525,11 @@ class HostLink:
             self._fail(DeviceResetError, f"the board on {self._line.name} has lost count of what it was sent")
         if count:
             self._done(count)
+        if self._sizes:
+            self._pace.slow_down()
         self.stats.resent += len(self._sizes)
         self._sizes.clear()
+        self._on_bus.clear()
         self._work = deque(piece for work in self._work for piece in self._pace.again(work))
 
     def _expect(self) -> None:
@@ -526,6 +539,9 @@ class HostLink:
             patience = self._patience * min(4, 2**self._failures)
         else:  # quick to fall back, and then to find a device that does so too
             patience = self._patience * (1 if self._last_rate == self.baudrate else 2)
+        if self._hurries < HURRIES and not self._failures:
+            patience = min(patience, self._trip.most * 2**self._hurries)
+        patience += sum(self._on_bus)
         self._deadline = on_the_way + min(now + patience, max(now, self._progress + self.timeout))
 
     def _poll(self) -> None:
@@ -540,6 +556,10 @@ class HostLink:
 
     def _time_out(self) -> None:
         self.stats.timeouts += 1
+        if self._hurries < HURRIES and not self._failures:
+            self._hurries += 1
+            self._poll()
+            return
         self._failures += 1
         if self._failures > ATTEMPTS or self.clock() - self._progress >= self.timeout:
             self._fail(
@@ -550,7 +570,6 @@ class HostLink:
             self._line.set_rate(BASE_BAUDRATE)
             self._pace = Pace(self.device, BASE_BAUDRATE)
             self._put_off()
-        self._pace.slow_down()
         self._poll()
 
     def _settle(self, fault: Fault) -> NoReturn:

@@ -1,12 +1,13 @@
-"""How an update is cut into frames, and how much of it may be under way: what device, wire and noise make best."""
+"""How an update is cut into frames, how much of it may be under way, and how long an answer may take."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 
 from firmware_protocol.frames import FRAME_OVERHEAD, payload_within, wire_size
 from firmware_protocol.messages import HelloReply, Kind, PanelBus
-from firmware_protocol.runs import LEAST_PAYLOAD, Run, bus_bytes, cut_runs, pack_runs, unpack_runs
+from firmware_protocol.runs import LEAST_PAYLOAD, Run, bus_bytes, cut_runs, most_bus_bytes, pack_runs, unpack_runs
 
 #: Payload that a bad line shrinks frames to: at 3 errors in 1000 bytes five of six still arrive.
 BAD_LINE_PAYLOAD = 48
@@ -14,6 +15,12 @@ BAD_LINE_PAYLOAD = 48
 FAST = 230_400
 #: Seconds that a panel's bus takes for a byte: nine bits at 400 kHz. Where it takes others, updates only end later.
 BUS_BYTE = 22.5e-6
+#: The same at 100 kHz, and for a reset of the panel: what a device may need before it answers.
+SLOW_BUS_BYTE = 90e-6
+RESET_SECONDS = 0.02
+#: Seconds that an answer may always take beside wire and bus; and how many deviations from the mean.
+LEAST_PATIENCE = 0.01
+DEVIATIONS = 4
 #: Payloads up to here are not worth two frames.
 WHOLE = 12
 
@@ -69,6 +76,12 @@ class Pace:
             return [work]
         return _messages(self._packed(unpack_runs(payload)), kind == Kind.WRITE_END)
 
+    def on_bus(self, kind: Kind, payload: bytes) -> float:
+        """Return the seconds that a device may need for a message when it has it: those of a panel's bus at 100 kHz."""
+        if kind == Kind.RESET:
+            return RESET_SECONDS
+        return most_bus_bytes(payload) * SLOW_BUS_BYTE if kind in (Kind.WRITE, Kind.WRITE_END) else 0.0
+
     def slow_down(self) -> None:
         """Something was lost: send less at a time."""
         self.payload = min(self._best_payload, max(BAD_LINE_PAYLOAD, self.payload // 2))
@@ -94,6 +107,30 @@ class Pace:
         if share >= 1 or share * on_bus < 2 * envelope:  # nothing to gain, or hardly more than a frame costs
             return [payload]
         return [packed for part in cut_runs(runs, round(share * written)) for packed in self._packed(part)]
+
+
+class RoundTrip:
+    """How long acknowledgements take, as TCP reckons it (RFC 6298): smoothed mean and deviation of what was seen.
+
+    Attributes
+    ----------
+    most : float
+        Seconds after which one is overdue; endless until one has come.
+    """
+
+    def __init__(self) -> None:
+        self.most = math.inf
+        self._mean = self._deviation = 0.0
+
+    def took(self, seconds: float) -> None:
+        """Take in that one came after so many seconds, what wire and bus are known to need not counted."""
+        seconds = max(0.0, seconds)
+        if self.most == math.inf:
+            self._mean, self._deviation = seconds, seconds / 2
+        else:
+            self._deviation += (abs(seconds - self._mean) - self._deviation) / 4
+            self._mean += (seconds - self._mean) / 8
+        self.most = max(LEAST_PATIENCE, self._mean + DEVIATIONS * self._deviation)
 
 
 def _messages(payloads: list[bytes], end: bool) -> list[Work]:

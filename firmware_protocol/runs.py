@@ -98,6 +98,24 @@ def bus_bytes(runs: Iterable[Run]) -> int:
     return sum(RUN_ENVELOPE + len(content) for _, content in runs)
 
 
+def most_bus_bytes(payload: bytes) -> int:
+    """Return how many bytes the panel's bus carries for a payload, were each token a run of its own, or two.
+
+    Examples
+    --------
+    >>> most_bus_bytes(bytes.fromhex("82 b0 02 10 fd 55"))
+    13
+    """
+    at = written = 0
+    while at < len(payload):
+        header = payload[at]
+        commands, data = _sizes(header)
+        at += 1 + commands + data
+        written += RUN_ENVELOPE * (2 if header >> 6 == 2 else 1) + commands
+        written += 257 - header if header >= REPEAT_HEADER else data
+    return written
+
+
 def cut_runs(runs: Iterable[Run], size: int) -> tuple[list[Run], list[Run]]:
     """Cut runs in two after so many bytes on the panel's bus. Commands stay whole, and with the data after them.
 

@@ -68,10 +68,13 @@ class SimulatedPort:
 
     A byte takes a character time on the line; one sent at another rate than the far end listens at arrives as another
     byte. Writing to the panel takes 22.5 us a byte, and what arrives meanwhile waits in 512 bytes or is lost.
+    Answers take `late` seconds more.
     """
 
     name = "simulated"
     ring = 512
+    bus_byte = 22.5e-6
+    late: Callable[[], float] = staticmethod(lambda: 0.0)
 
     def __init__(self, *, profile: HelloReply = UNO, noise: Noise | None = None, seed: int = 0) -> None:
         self.rng = random.Random(seed)
@@ -127,7 +130,8 @@ class SimulatedPort:
     # -- the far side
 
     def reply(self, data: bytes, rate: int) -> None:
-        self._carry("to host", self.mangle(data), max(self.now, self.busy_until), rate, self._come_back)
+        now = max(self.now, self.busy_until) + self.late()
+        self._carry("to host", self.mangle(data), now, rate, self._come_back)
 
     def _carry(self, way: str, data: bytes, now: float, rate: int, arrive: Callable[[int, int], None]) -> None:
         for byte in data:
@@ -161,5 +165,5 @@ class SimulatedPort:
             self.reply(self.device.receive(bytes((byte,))), before)
 
     def _write_panel(self, content: bytes) -> None:
-        self.busy_until = max(self.busy_until, self.now) + 22.5e-6 * (len(content) + 1)
+        self.busy_until = max(self.busy_until, self.now) + self.bus_byte * (len(content) + 1)
         self.panel(content)

@@ -149,6 +149,47 @@ def test_lost_acknowledgements_are_asked_for() -> None:
     assert port.device.counters.damaged == 0
 
 
+@pytest.mark.parametrize("baudrate", [115_200, 500_000])
+def test_a_lost_acknowledgement_is_asked_for_as_soon_as_it_is_overdue(baudrate: int) -> None:
+    port = SimulatedPort()
+    link = joined(port, baudrate=baudrate)
+    link.write([(True, b"\1")])
+    for number in range(10):
+        left = [b""]
+        port.mangle = lambda replies, left=left: left.pop() if replies and left else replies
+        start = port.now
+        link.write([(True, bytes((number,)))])
+        assert port.now - start < 0.02
+    assert (link.stats.timeouts, link.stats.resent) == (10, 0)
+
+
+@pytest.mark.parametrize("baudrate", [115_200, 1_000_000])
+def test_a_slow_bus_is_waited_for(baudrate: int) -> None:
+    port = SimulatedPort()
+    port.bus_byte = 90e-6
+    link = joined(port, baudrate=baudrate)
+    for size in (1, 1, 1, 8000, 1, 8000):  # repeats: 250 bytes on the wire, 0.7 s on the bus
+        link.write([(True, bytes(size))])
+    cost(port, link, screens(3))
+    assert (link.stats.timeouts, link.stats.resent) == (0, 0)
+
+
+def test_answers_that_come_late_are_learned_from_and_lose_nothing() -> None:
+    port = SimulatedPort()
+    link = joined(port)
+    cost(port, link, screens(3))
+    assert link.stats.timeouts == 0
+    rng = random.Random(2)
+    port.late = lambda: rng.uniform(0.03, 0.06)
+    cost(port, link, screens(4))
+    learning = link.stats.timeouts
+    cost(port, link, screens(10))
+    assert 0 < learning < 8
+    assert link.stats.timeouts == learning
+    assert link.stats.resent == 0
+    assert link.baudrate == 500_000
+
+
 def test_a_reset_in_the_middle_fails_the_work_and_the_next_begins_anew() -> None:
     port = SimulatedPort()
     link = joined(port)

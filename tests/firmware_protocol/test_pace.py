@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import random
 from dataclasses import replace
 
@@ -14,8 +15,8 @@ from firmware_protocol import HostLink
 from firmware_protocol.device import UNO
 from firmware_protocol.frames import FRAME_OVERHEAD, wire_size
 from firmware_protocol.messages import Kind
-from firmware_protocol.pace import BUS_BYTE, Pace, Work
-from firmware_protocol.runs import LEAST_PAYLOAD, bus_bytes, pack_runs, unpack_runs
+from firmware_protocol.pace import BUS_BYTE, LEAST_PATIENCE, Pace, RoundTrip, Work
+from firmware_protocol.runs import LEAST_PAYLOAD, bus_bytes, most_bus_bytes, pack_runs, unpack_runs
 
 RATES = (57_600, 115_200, 230_400, 500_000)
 RUNS = st.lists(
@@ -92,3 +93,26 @@ def test_the_smallest_devices_get_pictures_over_a_noisy_line(window: int) -> Non
         assert port.panel.ram == picture
     assert link.stats.resent > 0
     assert port.device.counters.overflows == 0
+
+
+# How long an answer may take
+
+
+def test_patience_is_the_mean_and_four_deviations() -> None:
+    trip = RoundTrip()
+    assert trip.most == math.inf
+    trip.took(0.1)
+    assert trip.most == pytest.approx(0.1 + 4 * 0.05)
+    trip.took(0.1)
+    assert trip.most == pytest.approx(0.1 + 4 * 0.0375)
+    trip.took(0.18)
+    assert trip.most == pytest.approx(0.11 + 4 * (0.0375 * 3 / 4 + 0.08 / 4))
+    for _ in range(100):
+        trip.took(-0.001)
+    assert trip.most == LEAST_PATIENCE
+
+
+@given(RUNS)
+def test_the_bus_never_carries_more_than_is_waited_for(runs) -> None:
+    for payload in pack_runs(runs, 250):
+        assert bus_bytes(unpack_runs(payload)) <= most_bus_bytes(payload)
