@@ -19,7 +19,7 @@ from paneldraw import urls, watching
 from paneldraw.care import Care
 from paneldraw.controllers import BUSES, CHIPS, Controller, features
 from paneldraw.driver import Driver
-from paneldraw.errors import PanelError, PanelTimeoutError, did_you_mean
+from paneldraw.errors import PanelError, PanelTimeoutError, TransportError, did_you_mean
 from paneldraw.framebuffer import Framebuffer, pictures
 from paneldraw.leaving import arrange, follow
 from paneldraw.pacing import Frames
@@ -35,6 +35,7 @@ Updates = Literal["least", "plain", "whole"]
 
 _ON_CLOSE: Final = ("keep", "clear", "off")
 _ROTATIONS: Final = (0, 90, 180, 270)
+_NAMED: Final = "the environment variable PANELDRAW_PANEL is {!r}: {}"
 
 
 class Report(NamedTuple):
@@ -812,6 +813,22 @@ def _array(source: npt.NDArray[Any], depth: int) -> tuple[Levels, int]:
     return source.astype(np.uint8, copy=False), max_level
 
 
+@contextlib.contextmanager
+def _source_named(url: str | None) -> Iterator[None]:
+    """Have what goes wrong say that the environment names the panel, where it does."""
+    named = None if url is not None else os.environ.get("PANELDRAW_PANEL")
+    try:
+        yield
+    except TransportError as error:
+        if named:
+            error.strerror = _NAMED.format(named, error.strerror)
+        raise
+    except (ValueError, PanelError) as error:
+        if named:
+            error.args = (_NAMED.format(named, error),)
+        raise
+
+
 def open_panel(url: str | None = None) -> Panel:
     """Open the panel that a URL names.
 
@@ -850,7 +867,7 @@ def open_panel(url: str | None = None) -> Panel:
     watch = watching.asked(wanted)
     transport: Transport
     simulated = None
-    with contextlib.ExitStack() as unless_done:
+    with _source_named(url), contextlib.ExitStack() as unless_done:
         if isinstance(wanted, urls.SerialURL):
             transport = port = SerialTransport(wanted.port, wanted.baudrate)
             unless_done.callback(port.close)
@@ -887,7 +904,7 @@ def _wanted(url: str | None) -> urls.PanelURL | urls.SerialURL:
     try:
         return urls.parse(named or "sim://ssd1306")
     except ValueError as error:
-        raise ValueError(f"the environment variable PANELDRAW_PANEL is {named!r}: {error}") from None
+        raise ValueError(_NAMED.format(named, error)) from None
 
 
 def _simulated(wanted: urls.PanelURL) -> tuple[Transport, Any, Any]:

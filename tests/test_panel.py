@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import errno
+import re
 import threading
 
 import numpy as np
@@ -551,10 +552,24 @@ def test_what_is_no_controller_or_no_transport_says_what_to_write():
         Panel(SSD1306(), "i2c://1")
 
 
-def test_the_environment_is_named_as_the_source(monkeypatch):
-    monkeypatch.setenv("PANELDRAW_PANEL", "i2c://1?chip=ssd1360")
-    with pytest.raises(ValueError, match=r"PANELDRAW_PANEL is 'i2c://1\?chip=ssd1360': chip must be one of"):
+@pytest.mark.parametrize(
+    ("url", "kind", "complaint"),
+    [
+        ("i2c://1?chip=ssd1360", ValueError, "chip must be one of"),
+        ("i2c://1/0x99", ValueError, "address must be 0x08 to 0x77"),
+        ("i2c://777", PanelNotFoundError, "there is no bus /dev/i2c-777: "),
+        ("serial:///dev/ttyNONE", PanelNotFoundError, "there is no port /dev/ttyNONE: "),
+        ("sim://ssd1306?contrast=999", ValueError, "contrast must be 0 to 255"),
+    ],
+)
+def test_the_environment_is_named_as_the_source(monkeypatch, url, kind, complaint):
+    monkeypatch.setenv("PANELDRAW_PANEL", url)
+    source = "the environment variable PANELDRAW_PANEL is "
+    with pytest.raises(kind, match=re.escape(f"{source}{url!r}: {complaint}")):
         open_panel()
+    with pytest.raises(kind, match=re.escape(complaint)) as caught:
+        open_panel(url)
+    assert source not in str(caught.value)
 
 
 def test_a_pictures_file(tmp_path):
