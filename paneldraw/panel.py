@@ -18,6 +18,7 @@ import numpy.typing as npt
 from paneldraw import urls, watching
 from paneldraw.care import Care
 from paneldraw.controllers import BUSES, CHIPS, Controller, features
+from paneldraw.controllers.packing import highest
 from paneldraw.driver import Driver
 from paneldraw.errors import PanelError, PanelTimeoutError, TransportError, did_you_mean
 from paneldraw.framebuffer import Framebuffer, pictures
@@ -307,7 +308,7 @@ class Panel:
         A show from a signal handler, in the middle of a show of the same thread, is done when that one is, and then
         that one's picture is shown again: the report says `queued`.
         """
-        if self._closed or self._foreign or self._sender is not None:
+        if self._closed or self._foreign or (self._sender is not None and self._sender.error is not None):
             self._listen()
         pixels, max_level = self._levels(source)
         if wait and self._sender is None:
@@ -802,15 +803,21 @@ def _checked_contrast(controller: Controller, level: int) -> int:
 
 def _array(source: npt.NDArray[Any], depth: int) -> tuple[Levels, int]:
     max_level = 2**depth - 1
-    if source.dtype == np.bool_:
+    kind = source.dtype.kind
+    if kind == "b":
         return source.view(np.uint8), 1
-    if source.dtype.kind not in "ui":
+    if kind not in "ui":
         raise TypeError(f"source must be an array of bool or of integer levels, not {source.dtype}")
-    if source.size and (source.max() > max_level or source.min() < 0):
+    plain = kind == "u" and source.itemsize == 1 and source.ndim == 2
+    if plain:
+        wrong = max_level < 255 and highest(source) > max_level
+    else:
+        wrong = bool(source.size) and (source.max() > max_level or source.min() < 0)
+    if wrong:
         raise ValueError(
             f"source must hold levels from 0 to {max_level}; greys to 255 go through Pillow or Framebuffer.image"
         )
-    return source.astype(np.uint8, copy=False), max_level
+    return source if plain else source.astype(np.uint8), max_level
 
 
 @contextlib.contextmanager

@@ -23,11 +23,17 @@ class Sender:
     ----------
     panel : Panel
         Who shows the pictures. The thread holds it only while it does.
+
+    Attributes
+    ----------
+    error : BaseException or None
+        What went wrong that nobody has heard of.
     """
 
     def __init__(self, panel: Panel) -> None:
         self._panel = weakref.ref(panel)
-        self._change = threading.Condition()
+        self._lock = threading.Lock()
+        self._change = threading.Condition(self._lock)
         # Rung for the thread; releasing a lock costs a third of notifying a condition.
         self._bell = threading.Lock()
         self._bell.acquire()
@@ -35,16 +41,19 @@ class Sender:
         self._max_level = 1
         self._busy = False
         self._stopped = False
-        self._error: BaseException | None = None
+        self.error: BaseException | None = None
         self._due: float | None = None
         self._thread: threading.Thread | None = None
 
     def put(self, pixels: npt.NDArray[np.uint8], max_level: int) -> bool:
         """Hand over a picture; return whether it takes the place of one that waited."""
-        with self._change:
+        with self._lock:
             dropped = self._waiting is not None
             self._waiting, self._max_level = pixels, max_level
-            self._run()
+            if self._thread is None:
+                self._start()
+            if self._bell.locked():  # not in a method: after a pause each call takes 2 us
+                self._bell.release()
         return dropped
 
     def wake_at(self, seconds: float | None) -> None:
@@ -52,7 +61,8 @@ class Sender:
         with self._change:
             self._due = seconds
             if seconds is not None:
-                self._run()
+                self._start()
+                self._ring()
 
     def flush(self, timeout: float | None = None) -> None:
         """Wait until nothing waits and nothing is under way; raise what went wrong since the last call."""
@@ -63,14 +73,9 @@ class Sender:
 
     def raise_error(self) -> None:
         """Raise what went wrong in the thread, once."""
-        error, self._error = self._error, None
+        error, self.error = self.error, None
         if error is not None:
             raise error
-
-    @property
-    def failed(self) -> bool:
-        """Whether something went wrong that nobody has heard of."""
-        return self._error is not None
 
     def stop(self, timeout: float = 2.0) -> None:
         """Forget what waits, let what is under way end, and end the thread."""
@@ -81,11 +86,10 @@ class Sender:
         if self._thread is not None and self._thread is not threading.current_thread():
             self._thread.join(timeout)
 
-    def _run(self) -> None:
+    def _start(self) -> None:
         if self._thread is None and not self._stopped:
             self._thread = threading.Thread(target=self._work, name="paneldraw sender", daemon=True)
             self._thread.start()
-        self._ring()
 
     def _ring(self) -> None:
         """Wake the thread; `_change` is held."""
@@ -124,4 +128,4 @@ class Sender:
             else:
                 panel._show(pixels, max_level)
         except BaseException as error:  # the caller's to hear, whatever it is
-            self._error = error
+            self.error = error

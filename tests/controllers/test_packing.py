@@ -51,3 +51,12 @@ def test_a_byte_is_eight_pixels_the_left_one_highest(package, levels, view, max_
     packed = np.full((levels.shape[0], levels.shape[1] // 8), 0xA5, np.uint8)
     packing.pack_rows(levels, max_level, packed)
     np.testing.assert_array_equal(packed, np.packbits(2 * levels.astype(int) > max_level, axis=1))
+
+
+@given(levels=hnp.arrays(np.uint8, hnp.array_shapes(min_dims=2, max_dims=2, min_side=0, max_side=40)), data=st.data())
+def test_the_highest_level_is_found_in_any_view(package, levels, data):
+    packing = importlib.import_module("paneldraw.controllers.packing")
+    levels = VIEWS[data.draw(st.sampled_from(sorted(VIEWS)))](levels)
+    assert packing.highest(levels) == levels.max(initial=0)
+    levels.flags.writeable = False
+    assert packing.highest(levels) == levels.max(initial=0)
