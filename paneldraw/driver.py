@@ -191,6 +191,12 @@ class Driver:
         if self.rest:
             self.rest, self.ready = "", False
 
+    def wake(self) -> None:
+        """End the sleep, in which a chip that says whether it is on says the same with and without its set-up."""
+        if self.asleep and self._watched:
+            self.ready = False
+        self.asleep = False
+
     def leave(self, on_close: str) -> None:
         """Leave the panel as it is to be when nobody drives it."""
         if on_close == "clear":

@@ -546,8 +546,11 @@ class Panel:
         self._change(self._driver.power)
 
     def wake(self) -> None:
-        """Light the panel again; one that was shown nothing yet lights with its first picture."""
-        self._driver.asleep = False
+        """Light the panel again; one that was shown nothing yet lights with its first picture.
+
+        A chip that is asked whether it lost its power is started anew: asleep it could not tell.
+        """
+        self._driver.wake()
         self._change(self._driver.power)
 
     def invalidate(self) -> None:

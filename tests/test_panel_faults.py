@@ -39,6 +39,11 @@ def made(chip):
     return transport, glass, bus
 
 
+def made_again(chip, bus):
+    """Another transport to a chip that is there already."""
+    return SPITransport(spi=bus.spi, pins=bus.pins, dc=None, reset=None) if chip is CHAIN else I2CTransport(bus)
+
+
 def picture(panel, seed):
     return np.random.default_rng(seed).integers(0, 2**panel.depth, (panel.height, panel.width), np.uint8)
 
@@ -51,41 +56,103 @@ def turn(panel):
 CALLS = {
     "show": lambda panel: panel.show(picture(panel, 2)),
     "contrast": lambda panel: panel.contrast(40),
+    "dim": lambda panel: panel.dim(20),
     "invert": lambda panel: panel.invert(),
     "rotate": turn,
     "sleep": lambda panel: panel.sleep(),
     "wake": lambda panel: panel.wake(),
 }
+CHIPS = {"ssd1306": SSD1306, "sh1106": SH1106, "ssd1327": SSD1327, "chain": CHAIN}
+every_chip = pytest.mark.parametrize("chip", CHIPS.values(), ids=CHIPS)
+
+
+def of_chip(chip, code):
+    """The code as a bus of this chip can have it: nobody acknowledges anything on SPI."""
+    return errno.EIO if chip is CHAIN and code in (errno.EREMOTEIO, errno.ENXIO, errno.ETIME) else code
+
+
+def opened(chip, transport, **options):
+    return Panel(chip if chip is CHAIN else chip(), transport, **options)
+
+
+def failing(bus, code, position, times, operation):
+    """Do something while messages fail; return whether one did, and our error if it was raised."""
+    came = []
+    bus.fail(code, after=position, times=times, then=lambda: came.append(1))
+    failed = None
+    try:
+        operation()
+    except PanelError as error:
+        failed = error
+        assert failed.errno == code
+        assert ": " in str(failed), "say what to do next"
+        assert times is None
+    bus.clear_faults()
+    return bool(came), failed
+
+
+def survives(chip, call, times, code, position):
+    """See that a call with a fault at a message of it ends well; return whether there was such a message."""
+    transport, glass, bus = made(chip)
+    if call == "init":
+        panels = []
+        came, failed = failing(bus, code, position, times, lambda: panels.append(opened(chip, transport)))
+        panel = panels[0] if panels else opened(chip, made_again(chip, bus))
+        assert bool(panels) == (failed is None)
+    else:
+        panel = opened(chip, transport)
+        panel.show(picture(panel, 1))
+        came, _ = failing(bus, code, position, times, lambda: CALLS[call](panel))
+    panel.wake()
+    panel.show(picture(panel, 3))
+    seen = glass.pixels if panel.rotate == 0 else glass.pixels[::-1, ::-1]
+    highest = 2**panel.depth - 1
+    wanted = highest - picture(panel, 3) if call == "invert" else picture(panel, 3)
+    np.testing.assert_array_equal(seen, wanted)
+    return came
 
 
 @pytest.mark.parametrize("code", FAULTS)
 @pytest.mark.parametrize("times", [1, 3, None])
 @pytest.mark.parametrize("call", CALLS)
-@pytest.mark.parametrize("chip", [SSD1306, SH1106, SSD1327, CHAIN], ids=["ssd1306", "sh1106", "ssd1327", "chain"])
+@every_chip
 def test_after_any_fault_in_any_call_the_next_show_is_whole(chip, call, times, code):
-    if chip is CHAIN and code in (errno.EREMOTEIO, errno.ENXIO, errno.ETIME):
-        code = errno.EIO  # nobody acknowledges anything on SPI
     for position in range(0, 12, 3):
+        survives(chip, call, times, of_chip(chip, code), position)
+
+
+@pytest.mark.thorough
+@pytest.mark.parametrize("code", CODES)
+@pytest.mark.parametrize("times", [1, 3, None])
+@pytest.mark.parametrize("call", ["init", *CALLS])
+@every_chip
+def test_after_a_fault_at_every_message_the_next_show_is_whole(chip, call, times, code):
+    position = 0
+    while survives(chip, call, times, of_chip(chip, code), position):
+        position += 1
+    assert position >= 1
+
+
+@pytest.mark.parametrize("code", FAULTS)
+@pytest.mark.parametrize("times", [1, 3, None])
+@pytest.mark.parametrize("on_close", ["clear", "off"])
+@every_chip
+def test_a_fault_at_every_message_of_close_is_ours_and_the_bus_is_closed(chip, on_close, times, code):
+    position, came = 0, True
+    while came:
         transport, glass, bus = made(chip)
-        panel = Panel(chip if chip is CHAIN else chip(), transport)
+        panel = opened(chip, transport, on_close=on_close)
         panel.show(picture(panel, 1))
-        bus.fail(code, after=position, times=times)
-        failed = None
-        try:
-            CALLS[call](panel)
-        except PanelError as error:
-            failed = error
-        if failed is not None:
-            assert failed.errno == code
-            assert ": " in str(failed), "say what to do next"
-            assert times is None
-        bus.clear_faults()
-        panel.wake()
-        panel.show(picture(panel, 3))
-        seen = glass.pixels if panel.rotate == 0 else glass.pixels[::-1, ::-1]
-        highest = 2**panel.depth - 1
-        wanted = highest - picture(panel, 3) if call == "invert" else picture(panel, 3)
-        np.testing.assert_array_equal(seen, wanted)
+        came, failed = failing(bus, of_chip(chip, code), position, times, panel.close)
+        if failed is None:
+            assert not glass.pixels.any()
+        with pytest.raises(PanelError, match="closed"):
+            panel.show(picture(panel, 2))
+        again = opened(chip, made_again(chip, bus))
+        again.show(picture(again, 3))
+        np.testing.assert_array_equal(glass.pixels, picture(again, 3))
+        position += 1
+    assert position > 1
 
 
 @pytest.mark.parametrize("code", CODES)
@@ -102,7 +169,7 @@ def test_a_fault_at_the_start_or_at_the_end_is_ours(code):
     bus.fail(code, times=None)
     with pytest.raises(PanelError):
         panel.close()
-    panel.close()
+    panel.close()  # a second time does nothing
 
 
 # -- What happens to a bus

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import copy
 import errno
 import gc
 import os
@@ -130,6 +131,69 @@ def test_force_starts_the_chip_anew():
     np.testing.assert_array_equal(chip.pixels, noise(1))
 
 
+SETTINGS = {
+    "contrast": lambda panel: panel.contrast(9),
+    "dim": lambda panel: panel.dim(3),
+    "inversion": lambda panel: panel.invert(),
+    "rotation": lambda panel: setattr(panel, "rotate", 180),
+    "sleep": lambda panel: panel.sleep(),
+}
+
+
+@pytest.mark.parametrize("setting", SETTINGS)
+@pytest.mark.parametrize("recovery", ["noticed", "forced", "fault"])
+@pytest.mark.parametrize("make", [SSD1306, SH1106, SSD1327])
+def test_each_setting_is_back_after_a_recovery(monkeypatch, make, recovery, setting):
+    clock = Clock(monkeypatch)
+    chip = getattr(simulator, make.name)()
+    panel = Panel(make(), I2CTransport(simulator.I2CBus({0x3C: chip})))
+    first, second = (noise(seed, (panel.width, panel.height)) for seed in (1, 2))
+    panel.show(first)
+    usual = copy.deepcopy(chip.registers)
+    SETTINGS[setting](panel)
+    panel.show(first, force=True)
+    registers, pixels = copy.deepcopy(chip.registers), chip.pixels
+    assert registers != usual or setting == "rotation"
+    assert pixels.any() == (setting != "sleep")
+    if recovery == "fault":
+        panel.transport.bus.fail(at_byte=2, then=chip.power_cycle)
+        panel.show(second)
+    else:
+        chip.power_cycle()
+        assert not chip.pixels.any()
+        clock.now += 1.1
+    panel.show(first, force=recovery == "forced")
+    np.testing.assert_array_equal(chip.pixels, pixels)
+    if setting == "sleep":  # a chip that is off says nothing of whether it has its set-up
+        panel.wake()
+        registers.on, pixels = True, first
+    assert settings(chip.registers) == settings(registers)
+    np.testing.assert_array_equal(chip.pixels, pixels)
+
+
+def settings(registers):
+    """The registers but for pointers and windows, which pictures move."""
+    moved = ("column", "row", "page")
+    return {name: value for name, value in vars(registers).items() if not name.startswith(moved) and name != "mode"}
+
+
+def test_two_drivers_of_one_panel_and_force_mends_what_they_spoil():
+    chip = simulator.SSD1306()
+    bus = simulator.I2CBus({0x3C: chip})
+    first, second = (Panel(SSD1306(), I2CTransport(bus)) for _ in range(2))
+    first.show(noise(1))
+    second.contrast(3)
+    second.show(noise(2))
+    first.show(noise(1))
+    assert not np.array_equal(chip.pixels, noise(1)), "neither knows of the other"
+    first.show(noise(1), force=True)
+    np.testing.assert_array_equal(chip.pixels, noise(1))
+    assert chip.contrast == 0xCF
+    second.show(noise(3), force=True)
+    np.testing.assert_array_equal(chip.pixels, noise(3))
+    assert chip.contrast == 3
+
+
 def test_nothing_flashes():
     """No RAM noise at the start, after wake before the first picture, or after recovery."""
     panel, chip = simulated()
@@ -193,6 +257,26 @@ def test_a_show_within_a_show_is_whole_and_the_outer_one_last():
     assert not reports[0].unchanged
     for frame, picture in zip(chip.frames, [noise(2), noise(3), noise(2)], strict=True):
         np.testing.assert_array_equal(frame.pixels, picture)
+
+
+def test_a_show_from_a_finalizer_within_a_show_is_whole_and_the_outer_one_last():
+    class Last:
+        def __del__(self):
+            reports.append(panel.show(noise(3)))
+
+    reports = []
+    panel, chip, bus = interrupted()
+    held = [Last()]
+    bus.happening = held.clear
+    chip.frames.clear()
+    panel.show(noise(2))
+    assert [report.queued for report in reports] == [True]
+    np.testing.assert_array_equal(chip.pixels, noise(2))
+    for frame, picture in zip(chip.frames, [noise(2), noise(3), noise(2)], strict=True):
+        np.testing.assert_array_equal(frame.pixels, picture)
+    held.append(Last())
+    held.clear()
+    np.testing.assert_array_equal(chip.pixels, noise(3))
 
 
 def test_settings_within_a_show_hold():

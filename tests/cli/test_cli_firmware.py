@@ -11,6 +11,7 @@ from far_ends import Board, EmulatedBoard, serial
 from running import assert_one_line_of_advice
 
 from firmware_protocol.device import UNO
+from paneldraw import simulator
 from paneldraw.cli import diagnostics, firmware, main
 
 
@@ -106,6 +107,15 @@ def test_ports(run, monkeypatch, capsys):
 def test_the_port_of_the_environment(run, board):
     done = run("firmware", "ping", "--count", 1, PANELDRAW_PANEL=f"serial://{board.path}?baudrate=250000")
     assert "ttyBOARD at 250000 baud: 1 round trips" in done.stdout
+
+
+@pytest.mark.parametrize(("query", "lit"), [("", False), ("?on_close=clear", False), ("?on_close=keep", True)])
+def test_a_demo_leaves_a_real_panel_black_unless_the_url_says_otherwise(run, tmp_path, query, lit):
+    board = Board(tmp_path / "ttyBOARD", panel=simulator.SSD1306().write)
+    done = run("demo", "cube", "--frames", 3, "--panel", f"serial://{board.path}{query}")
+    assert done.returncode == 0, done.stderr
+    assert board.panel.__self__.pixels.any() == lit
+    board.pull_out()
 
 
 @pytest.mark.parametrize(
