@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 from c_core import made
 
-from firmware_protocol import DeviceResetError, Fault, HostLink, PanelFaultError
+from firmware_protocol import DeviceResetError, Fault, Feature, HostLink, PanelFaultError
 from firmware_protocol.messages import PanelBus
 
 serial = pytest.importorskip("serial", reason="pyserial is not installed")
@@ -134,6 +134,18 @@ def test_qemus_i2c_panel_shows_what_was_sent(machine: Machine, tmp_path: Path) -
         np.testing.assert_array_equal(machine.screen(tmp_path / "screen.ppm"), 255 - pictures[7] * 255)
         assert link.stats.resent == 0
         assert link.status().overflows == 0
+
+
+@pytest.mark.parametrize("machine", [("lm3s811", 96, 16)], indirect=True)
+def test_a_byte_is_read_from_qemus_i2c_panel_between_pictures(machine: Machine, tmp_path: Path) -> None:
+    picture = np.random.default_rng(2).integers(0, 2, (16, 96), np.uint8)
+    with HostLink(serial.Serial(machine.port, 115200)) as link:
+        assert link.device.features & Feature.READ
+        link.write([(False, b"\xae\xa0\xa4\xa6\x40\x81\x7f\xd3\x00\xaf")])
+        for _ in range(3):
+            assert link.read_panel() == 0xFF  # what QEMU's panel gives, which says that it has no status
+            link.write(pages(picture))
+        np.testing.assert_array_equal(machine.screen(tmp_path / "screen.ppm"), picture * 255)
 
 
 @pytest.mark.parametrize(

@@ -1,4 +1,4 @@
-/* The panel on I2C0, written by waiting. */
+/* The panel on I2C0, written and read by waiting. */
 #include "board.h"
 
 #define I2C(offset) REG(0x40020000 + (offset))
@@ -30,6 +30,16 @@ static enum pd_fault command(uint32_t what)
     return status & NO_DATA_ACK ? PD_DATA_NACK : PD_ADDRESS_NACK;
 }
 
+/* One byte, which is not acknowledged, as it is the last. */
+static enum pd_fault read_one(void)
+{
+    I2C(I2C_ADDRESS) = PD_ADDRESS << 1 | 1;
+    enum pd_fault fault = command(RUN | START | STOP);
+    if (!fault)
+        pd_bus_took((uint8_t)I2C(I2C_DATA));
+    return fault;
+}
+
 /* The controller sends the address with the first byte. Between transactions there is a stop, because QEMU's panel
  * begins to listen for control bytes again only then.
  */
@@ -40,6 +50,8 @@ static enum pd_fault write_all(void)
     enum pd_fault fault = PD_OK;
     for (;;) {
         uint16_t step = pd_bus_next();
+        if (step == PD_READ)
+            return read_one();
         if (step <= 0xFF) {
             I2C(I2C_DATA) = step;
             fault = command(RUN | start);

@@ -20,6 +20,7 @@
 #define PD_CONTROL_EACH 0
 #else /* LM3S811: a 96 x 16 panel on I2C */
 #define PD_BUS PD_BUS_IS_I2C
+#define PD_READS 1
 #define PD_ADDRESS 0x3D
 #define PD_CONTROLLER "ssd0303"
 #define PD_WIDTH 96
