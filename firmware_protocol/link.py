@@ -239,8 +239,8 @@ class HostLink:
         if not self.device.features & Feature.READ:
             raise LinkError(f"the board on {self._line.name} cannot read from its panel")
         self.drain()
-        for _ in range(HURRIES + 1):
-            answer = self._asked_to_read()
+        for patience in (*(self._trip.most * 2**hurry for hurry in range(HURRIES)), self._patience):
+            answer = self._asked_to_read(min(patience, self._patience))
             if answer is None:
                 continue
             if answer.fault:
@@ -248,11 +248,11 @@ class HostLink:
             return answer.value
         raise LinkTimeoutError(f"the board on {self._line.name} does not say what its panel answers; try again")
 
-    def _asked_to_read(self) -> Byte | None:
-        """Ask once; return the answer, or None where it is lost."""
+    def _asked_to_read(self, patience: float) -> Byte | None:
+        """Ask once; return the answer, or None where it is lost or does not come in time."""
         self._token = self._token + 1 & 0xFF
         self._line.send(DELIMITER + encode(Read(self._token)))
-        until, damaged = self.clock() + self._patience, self.stats.damaged
+        until, damaged = self.clock() + patience, self.stats.damaged
         while self.clock() < until and self.stats.damaged == damaged:
             for message in self._line.receive():
                 if isinstance(message, Byte) and message.token == self._token:

@@ -722,6 +722,19 @@ def test_a_byte_read_from_the_panel() -> None:
     assert link.stats.sessions == 1
 
 
+def test_a_byte_that_is_lost_is_asked_for_as_soon_as_it_is_overdue() -> None:
+    port = SimulatedPort()
+    port.device.read = lambda: 0x43
+    link = joined(port)
+    link.write([(True, b"\1")])
+    left = [b"", b""]
+    port.mangle = lambda replies: left.pop() if replies and left else replies
+    start = port.now
+    assert link.read_panel() == 0x43
+    assert left == []
+    assert port.now - start < 0.05
+
+
 def test_a_device_that_cannot_read_is_not_asked_to() -> None:
     port = SimulatedPort()
     link = joined(port)
