@@ -874,10 +874,10 @@ def open_panel(url: str | None = None) -> Panel:
     <Panel ssd1306 128x32, rotate=0>
     """
     wanted = _wanted(url)
-    watch = watching.asked(wanted)
     transport: Transport
     simulated = None
     with _source_named(url), contextlib.ExitStack() as unless_done:
+        watch = watching.asked(wanted)
         if isinstance(wanted, urls.SerialURL):
             transport = port = SerialTransport(wanted.port, wanted.baudrate)
             unless_done.callback(port.close)
