@@ -46,7 +46,7 @@ from firmware_protocol.messages import (
     cause_text,
     encode,
 )
-from firmware_protocol.pace import Pace, RoundTrip, Work
+from firmware_protocol.pace import BUS_BYTE, SLOW_BUS_BYTE, Pace, RoundTrip, Work
 from firmware_protocol.runs import LEAST_PAYLOAD, Run
 
 #: Seconds between two attempts to be heard, to begin with.
@@ -505,6 +505,7 @@ class HostLink:
         if count > len(self._sizes):
             return
         needed = sum(islice(self._sizes, count)) * 10 / self.baudrate
+        needed += sum(islice(self._on_bus, count)) * BUS_BYTE / SLOW_BUS_BYTE
         for _ in range(count):
             self._sizes.popleft()
             self._on_bus.popleft()

@@ -154,6 +154,7 @@ def test_a_lost_acknowledgement_is_asked_for_as_soon_as_it_is_overdue(baudrate: 
     port = SimulatedPort()
     link = joined(port, baudrate=baudrate)
     link.write([(True, b"\1")])
+    link.write([(True, bytes(8000))])  # 0.18 s on the bus, from which nothing follows for others
     for number in range(10):
         left = [b""]
         port.mangle = lambda replies, left=left: left.pop() if replies and left else replies
