@@ -32,6 +32,8 @@ _PATIENCE: Final = 0.02
 """So many times, and about so many seconds without any success, a fault is answered by trying again."""
 _BUSY: Final = (3, 0.25)
 """So many of these times have so many seconds: other processes may take the machine away meanwhile."""
+_READS: Final = 3
+"""So often a status is read that does not come: without one nobody would notice that the panel loses its power."""
 _LOOK: Final = 1.0
 """Seconds between two looks at whether the panel lost its power."""
 
@@ -319,10 +321,11 @@ class Driver:
         read = getattr(self.transport, "read_status", None)
         if read is None or not self.controller.status_off:
             return None
-        with contextlib.suppress(TransportError):
-            status, wire = read()
-            self._asked = Sent(self._asked.wire_bytes + wire, self._asked.messages + 1)
-            return int(status) & self.controller.status_off
+        for _ in range(_READS):
+            with contextlib.suppress(TransportError):
+                status, wire = read()
+                self._asked = Sent(self._asked.wire_bytes + wire, self._asked.messages + 1)
+                return int(status) & self.controller.status_off
         return None
 
     def _alive(self, now: float) -> bool:
