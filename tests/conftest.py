@@ -39,11 +39,11 @@ def run(request):
 
 
 class Sources:
-    """The package as an install without a compiler has it: a copy of its .py files, with modules of its own."""
+    """The package as an install without a compiler has it: a copy of its sources and drawings, its own modules."""
 
     def __init__(self, folder):
         original = Path(paneldraw.__file__).parent
-        for file in original.rglob("*.py"):
+        for file in (*original.rglob("*.py"), *original.rglob("*.txt")):
             copy = folder / "paneldraw" / file.relative_to(original)
             copy.parent.mkdir(parents=True, exist_ok=True)
             shutil.copyfile(file, copy)

@@ -115,13 +115,13 @@ def test_the_wheel_holds_the_packages_and_nothing_else(wheel):
     expected = {
         str(file.relative_to(PROJECT))
         for package in ("paneldraw", "firmware_protocol")
-        for pattern in ("**/*.py", "**/*.pxd", "py.typed", "PROTOCOL.md", "vectors/*.txt", "simulator/page.html")
+        for pattern in ("**/*.py", "**/*.pxd", "py.typed", "PROTOCOL.md", "**/*.txt", "simulator/page.html")
         for file in (PROJECT / package).glob(pattern)
         if "firmware_protocol/firmware/" not in file.as_posix()
     }
     assert expected <= set(names)
     assert {"paneldraw/py.typed", "firmware_protocol/py.typed"} <= expected
-    assert "firmware_protocol/vectors/conversations.txt" in expected
+    assert {"firmware_protocol/vectors/conversations.txt", "paneldraw/text/builtin/ascii.txt"} <= expected
     assert not [name for name in names if re.search(r"(^|/)(tests?|build|conftest)(/|\.|$)", name)]
 
 

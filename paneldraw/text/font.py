@@ -73,13 +73,22 @@ class Font:
 
         Parameters
         ----------
-        name : {"6x8"}, default "6x8"
-            The default is what text is written with where no font is named: cells of 6 x 8 pixels.
+        name : {"6x8", "8x8", "numbers", "segments"}, default "6x8"
+            The default is what text is written with where no font is named. ``"6x8"`` and ``"8x8"``, with thin and
+            with bold strokes, are named by their cells. They have the letters of Europe's languages (Latin-1, Latin
+            Extended-A, Greek, Cyrillic), box drawing, blocks, Braille, arrows and signs such as ♥ ✓ ☂ ⚡ 🔋 📶.
+            ``"numbers"`` has plain digits of 12 x 16, ``"segments"`` those of a seven-segment display of 10 x 16, in
+            both with the point, the comma and the colon narrower, and all other characters of ``"6x8"``, doubled.
 
         Raises
         ------
         ValueError
             If there is no such font.
+
+        Examples
+        --------
+        >>> Font.builtin("numbers").measure("21.5 °C")
+        (72, 16)
         """
         return _builtin(name)
 

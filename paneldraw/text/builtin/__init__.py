@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import numpy as np
+from paneldraw.text.strike import Strike
 
-from paneldraw.text.strike import Picture, Strike
-
-NAMES = ("6x8",)
+NAMES = ("6x8", "8x8", "numbers", "segments")
 
 _MISSING = 0xFFFD
 
@@ -15,18 +13,12 @@ def strike(name: str) -> Strike:
     """Read the font of that name."""
     if name not in NAMES:
         raise ValueError(f"there is no built-in font {name!r}; there are {', '.join(NAMES)}")
-    from paneldraw.text.builtin.font_6x8 import GLYPHS
+    from paneldraw.text.builtin.cells import Bold, Cells, Regular
 
-    return Strike(name, 7, 1, read(GLYPHS, 8, 6), gap=1, cells=True, missing=_MISSING)
+    if name in ("6x8", "8x8"):
+        draw = Regular() if name == "6x8" else Bold()
+        return Strike(name, 7, 1, Cells(draw), gap=1, cells=True, missing=_MISSING)
+    from paneldraw.text.builtin.tall import Plain, Segments
 
-
-def read(drawing: str, height: int, advance: int) -> dict[int, Picture]:
-    """Read bands of cells of `advance` x `height`, each under a line that names their characters."""
-    rows = drawing.strip("\n").split("\n")
-    pictures: dict[int, Picture] = {}
-    for top in range(0, len(rows), height + 1):
-        cells = np.frombuffer("".join(row + " " for row in rows[top + 1 : top + 1 + height]).encode(), np.uint8)
-        band = (cells == ord("#")).reshape(height, -1, advance + 1)[:, :, :advance].astype(np.uint8)
-        for column, name in enumerate(rows[top][2 :: advance + 1]):
-            pictures[ord(name)] = Picture(band[:, column], 0, 0, advance)
-    return pictures
+    tall = Plain() if name == "numbers" else Segments()
+    return Strike(name, 14, 2, Cells(tall), gap=2, cells=True, missing=_MISSING)
