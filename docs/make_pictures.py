@@ -20,6 +20,7 @@ import figures
 import gallery
 import numpy as np
 import screens
+import specimens
 import symptoms
 import worked_examples
 from PIL import Image
@@ -89,6 +90,7 @@ PICTURES: dict[str, Callable[[], Image.Image]] = {
     **gallery.pictures(),
     **figures.pictures(),
     **symptoms.pictures(),
+    **specimens.pictures(),
 }
 
 #: Pages with excerpts or tables, and what makes the tables.

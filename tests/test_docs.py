@@ -19,6 +19,7 @@ import numpy as np
 import plain_loops as plain
 import pytest
 import screens
+import specimens
 import symptoms
 import worked_examples as examples
 from PIL import Image
@@ -51,6 +52,14 @@ def test_the_gallery_shows_what_its_code_draws():
 def test_each_picture_is_shown_once_and_there_are_no_others():
     names = [name for name, _, _ in ENTRIES]
     assert sorted(names) == sorted(f"pictures/{file.name}" for file in (DOCS / "pictures").iterdir())
+
+
+@pytest.mark.parametrize(("name", "draw"), specimens.pictures().items())
+def test_specimens_show_the_fonts_as_they_are(name, draw):
+    with Image.open(DOCS / name) as file:
+        shown = np.asarray(file.convert("RGB"))
+    assert np.array_equal(np.asarray(draw().convert("RGB")), shown), "run docs/make_pictures.py"
+    assert f"({name})" in gallery.PAGE.read_text(encoding="utf-8")
 
 
 def test_the_pictures_of_the_gallery_differ():

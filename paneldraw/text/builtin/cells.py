@@ -134,6 +134,6 @@ class Bold(Regular):
 def bold(cells: NDArray[np.uint8]) -> NDArray[np.uint8]:
     """Return cells with wider strokes and two more columns; where a gap is one pixel wide, strokes stay as they are."""
     wide = np.pad(cells, ((0, 0), (0, 0), (0, 2)))
-    narrow = cells[..., :-2] & cells[..., 2:] & ~cells[..., 1:-1]
+    narrow: NDArray[np.uint8] = cells[..., :-2] & cells[..., 2:] & ~cells[..., 1:-1]
     thin, wide[..., 1:] = np.roll(wide, 1, axis=2), wide[..., 1:] | wide[..., :-1]
-    return np.where(narrow.any(axis=(1, 2))[:, None, None], thin, wide)
+    return np.where(narrow.any(axis=(1, 2), keepdims=True), thin, wide)
