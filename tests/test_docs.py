@@ -204,7 +204,7 @@ def test_the_page_on_watching_names_all_that_a_url_can_ask_for():
 def test_the_blocks_of_the_page_on_fonts_run():
     page = (DOCS / "fonts.md").read_text(encoding="utf-8")
     blocks = re.findall(r"^```python\n(.*?)^```$", page, re.M | re.S)
-    assert len(blocks) == 5
+    assert len(blocks) == 6
     names = {}
     for block in blocks:
         exec(block, names)
