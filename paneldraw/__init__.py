@@ -13,18 +13,22 @@ if not _compiled.COMPILED:
 
 if TYPE_CHECKING:
     from paneldraw.framebuffer import Framebuffer
+    from paneldraw.animation import Animation
+    from paneldraw.framebuffer.sprites import Sprite
     from paneldraw.panel import Panel, open_panel
     from paneldraw.raster.cone import ConeFilter
     from paneldraw.raster.coverage import Supersample
     from paneldraw.text import Font
 
-__all__ = ["ConeFilter", "Font", "Framebuffer", "Panel", "Supersample", "open_panel"]
+__all__ = ["Animation", "ConeFilter", "Font", "Framebuffer", "Panel", "Sprite", "Supersample", "open_panel"]
 
 _LATER = {
+    "Animation": "animation",
     "ConeFilter": "raster.cone",
     "Font": "text",
     "Framebuffer": "framebuffer",
     "Panel": "panel",
+    "Sprite": "framebuffer.sprites",
     "Supersample": "raster.coverage",
     "open_panel": "panel",
 }

@@ -12,6 +12,7 @@ MODULES = (
     "paneldraw.raster.cone",
     "paneldraw.raster.coverage",
     "paneldraw.raster.blit",
+    "paneldraw.raster.dither",
     "paneldraw.raster.glyphs",
     "paneldraw.raster.line",
     "paneldraw.raster.circle",

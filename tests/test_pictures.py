@@ -212,7 +212,7 @@ def test_arrays_have_the_shape_of_a_picture(package, shape):
 
 @pytest.mark.parametrize("bad", ["", "floyd", True, 1, []])
 def test_dithers_are_known(package, bad):
-    with pytest.raises(ValueError, match=r'^dither must be None, "bayer" or "floyd-steinberg", not '):
+    with pytest.raises(ValueError, match=r'^dither must be None, "bayer", "floyd-steinberg", "blue-noise" or '):
         package.Framebuffer(4, 4).image(np.zeros((2, 2), np.uint8), dither=bad)
 
 

@@ -3,7 +3,11 @@ from paneldraw.raster.coverage cimport Coverage
 from paneldraw.raster.surface cimport Surface
 
 cdef object write_text(Coverage coverage, object s, object x, object y, object font, object anchor)
-cdef object paint_picture(Surface surface, object picture, object x, object y, object dither)
-cdef object copy_levels(Surface surface, object source, object x, object y, object key, object palette)
+cdef object paint_picture(Surface surface, object picture, object x, object y, object dither, object op)
+cdef object paint_seen(
+    Surface surface, object before, object picture, tuple place, object fill, dict options, dict tones
+)
+cdef int operation(object op) except -1
+cdef object copy_levels(Surface surface, object source, object x, object y, object key, object palette, object op)
 cdef Picture _levels_of(Surface surface, object source, object palette)
 cdef object move_levels(Surface surface, object dx, object dy, object c)

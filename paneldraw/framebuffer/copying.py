@@ -4,13 +4,16 @@
 from __future__ import annotations
 
 import cython
+import numpy as np
 from cython.cimports.paneldraw.framebuffer.arguments import BEYOND, is_word, level, near_pixel, top_left, uint8s
-from cython.cimports.paneldraw.raster.blit import Picture, blit, mix, paint_grays, scroll
+from cython.cimports.paneldraw.raster.blit import Picture, blit, block, mix, paint_grays, scroll
 from cython.cimports.paneldraw.raster.glyphs import Glyphs, one_line, stamp, write
-from cython.cimports.paneldraw.raster.surface import ADD, XOR, Surface
+from cython.cimports.paneldraw.raster.surface import ADD, OVER, XOR, Surface
 
 from paneldraw.framebuffer import pictures
-from paneldraw.framebuffer.arguments import size
+from paneldraw.framebuffer.arguments import choice, size
+from paneldraw.framebuffer.scaling import seen
+from paneldraw.raster.surface import OPS
 
 # The module of text, from the first text on: a script that writes none does without it.
 _layout = cython.declare(object, None)
@@ -50,38 +53,76 @@ def write_text(coverage, s, x, y, font, anchor):
     write(coverage.surface, glyphs, s, left, top, factor)
 
 
-def paint_picture(surface, picture, x, y, dither):
-    """Paint a picture of grays."""
+def paint_picture(surface, picture, x, y, dither, op):
+    """Paint a picture of grays in its own size, as they are."""
     left: cython.longlong = top_left("x", x)
     top: cython.longlong = top_left("y", y)
+    code: cython.int = operation(op)
     levels: Picture = Picture.__new__(Picture)
     if dither is None and (levels.read(picture) or levels.read_arrow(pictures.arrow(picture))):
-        paint_grays(surface, levels, left, top)
+        paint_grays(surface, levels, left, top, code)
+        return True
+    return False
+
+
+def paint_seen(surface, before, picture, place, fill, options, tones):
+    """Paint what is seen of a picture: `options` say of which size, `tones` which level a gray becomes.
+
+    `before` are the levels of the surface.
+    """
+    x, y, op = place
+    left: cython.longlong = top_left("x", x)
+    top: cython.longlong = top_left("y", y)
+    code: cython.int = operation(op)
+    size = options["size"]
+    around: cython.int = -1 if fill is None else level(surface, fill)
+    dither = tones["dither"]
+    pictures.check_dither(dither)
+    window = (surface.left, surface.top, surface.right, surface.bottom)
+    part = seen(picture, (left, top), window, diffused=dither == "floyd-steinberg", **options)
+    if part is not None:
+        height, width = part.grays.shape
+        if dither == "stable":
+            tones["before"] = before[part.top : part.top + height, part.left : part.left + width]
+        shades = pictures.quantize(part.grays, surface.max_level, place=part.first, **tones)
+    if around >= 0 and size is not None:
+        block(surface, left, top, left + size[0], top + size[1], around, OVER)
+    if part is None:
         return
-    grays, alpha = pictures.to_gray(picture)
-    levels = Picture.__new__(Picture)
-    if dither is not None:
-        levels.read(pictures.quantize(grays, surface.max_level, dither))
-    else:
-        levels.read(grays)
-        if alpha is None:
-            paint_grays(surface, levels, left, top)
-            return
-        levels.scale(255, surface.max_level)
-    if alpha is None:
-        blit(surface, levels, left, top, -1)
+    if around >= 0 and size is None:
+        block(surface, part.left, part.top, part.left + width, part.top + height, around, OVER)
+    levels: Picture = Picture.__new__(Picture)
+    levels.read(shades)
+    if part.alpha is None:
+        blit(surface, levels, part.left, part.top, -1, code)
     else:
         opacity: Picture = Picture.__new__(Picture)
-        opacity.read(alpha)
-        mix(surface, levels, opacity, left, top)
+        opacity.read(part.alpha)
+        mix(surface, levels, opacity, part.left, part.top, -1, code)
 
 
-def copy_levels(surface, source, x, y, key, palette):
-    """Copy the levels of a surface or of an array."""
+def operation(op):
+    """The number by which the raster modules know an operation."""
+    return OVER if is_word(op, "over") else choice("op", op, OPS)
+
+
+def copy_levels(surface, source, x, y, key, palette, op):
+    """Copy the levels of a surface, of an array or of a sprite."""
     left: cython.longlong = top_left("x", x)
     top: cython.longlong = top_left("y", y)
     without: cython.int = min(max(size("key", key), -1), 256)
-    blit(surface, _levels_of(surface, source, palette), left, top, without)
+    code: cython.int = operation(op)
+    cover = None
+    if not isinstance(source, (Surface, np.ndarray)):
+        cover = getattr(source, "opacity", None)
+        source = getattr(source, "levels", source)
+    levels: Picture = _levels_of(surface, source, palette)
+    if cover is None:
+        blit(surface, levels, left, top, without, code)
+    else:
+        opacity: Picture = Picture.__new__(Picture)
+        opacity.read(cover)
+        mix(surface, levels, opacity, left, top, without, code)
 
 
 def _levels_of(surface, source, palette):

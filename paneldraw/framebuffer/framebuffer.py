@@ -12,7 +12,13 @@ from typing import TYPE_CHECKING, Any
 import cython
 import numpy as np
 from cython.cimports.paneldraw.framebuffer.arguments import FAR, is_word, level, near_pixel, quick, rows_of
-from cython.cimports.paneldraw.framebuffer.copying import copy_levels, move_levels, paint_picture, write_text
+from cython.cimports.paneldraw.framebuffer.copying import (
+    copy_levels,
+    move_levels,
+    paint_picture,
+    paint_seen,
+    write_text,
+)
 from cython.cimports.paneldraw.framebuffer.painter import Painter
 from cython.cimports.paneldraw.raster.surface import Surface
 
@@ -20,6 +26,7 @@ from paneldraw._signatures import SignatureOfInit
 from paneldraw.framebuffer import pictures
 from paneldraw.framebuffer.angles import sweep
 from paneldraw.framebuffer.arguments import LARGEST, check_antialias, choice, in_turn, real, size, whole
+from paneldraw.framebuffer.scaling import check_fit, checked_size
 from paneldraw.raster.surface import OPS
 
 if TYPE_CHECKING:
@@ -32,6 +39,8 @@ if TYPE_CHECKING:
 
     from paneldraw.framebuffer.arguments import Antialias, AntialiasOrDefault
     from paneldraw.framebuffer.pictures import Dither
+    from paneldraw.framebuffer.scaling import Fit
+    from paneldraw.framebuffer.sprites import Sprite
     from paneldraw.simulator.looks import Look
     from paneldraw.text import Font
 
@@ -896,45 +905,96 @@ class Framebuffer:
 
     def image(
         self,
-        picture: Image.Image | NDArray[Any] | str | PathLike[str],
+        picture: Any,
         x: int | float = 0,
         y: int | float = 0,
         *,
+        size: tuple[int, int] | None = None,
+        fit: Fit | None = None,
+        fill: int | None = None,
+        crop: tuple[int, int, int, int] | None = None,
         dither: Dither | None = None,
+        gamma: float = 1.0,
+        invert: bool = False,
+        op: str = "over",
     ) -> None:
         """Paint a picture with its top-left pixel at (x, y).
 
         Parameters
         ----------
-        picture : PIL.Image.Image, numpy.ndarray or path
+        picture : PIL.Image.Image, numpy.ndarray, Sprite, matplotlib figure or path
             An array of grays: shape (height, width), uint8 0 ... 255 or bool; or of colors: (height, width, 3 or 4). A
-            path is that of a file that Pillow reads. Where a picture is transparent, what is there shines through.
+            path is that of a file that Pillow reads. Where a picture is transparent, what is there shines through. What
+            a camera says of which side is up is obeyed.
         x, y : int or float
-        dither : {None, "bayer", "floyd-steinberg"}
-            How grays become levels: the nearest level, a fixed pattern, or diffusion of the error.
+        size : tuple of int, optional
+            Width and height to scale it to. Default: as it is; with `fit`, those of the framebuffer.
+        fit : {"stretch", "contain", "cover"}, optional
+            How it gets that size: by other proportions (default), the whole of it, in the middle, or as much of it as
+            fills the size.
+        fill : int, optional
+            The level of what is around and behind a picture of a `size`. Default: as it was.
+        crop : tuple of int, optional
+            x, y, width and height of the part to take. Default: all of it.
+        dither : {None, "bayer", "floyd-steinberg", "blue-noise", "stable"}
+            How grays become levels: the nearest level (default); a fixed pattern; diffusion of the error; a pattern
+            that is not seen as one; or that, while a pixel keeps the level that it has unless that is clearly off,
+            which keeps videos from flickering.
+        gamma : float, default 1.0
+            Gray 0 ... 1 becomes gray ** gamma of the highest level. 2.2 is right where levels are shares of light, as
+            on a 1-bit panel that is dithered.
+        invert : bool, default False
+            Whether dark and light change places.
+        op : {"over", "xor", "add", "max", "clear"}
 
         Raises
         ------
         TypeError
-            If the picture is neither.
+            If the picture is none, or an option of the wrong kind.
         ValueError
-            If the array has another shape or `dither` is none of these.
+            If the array has another shape, or an option is none of these.
+
+        Notes
+        -----
+        Pictures are scaled in linear light: fine black and white lines become gray 188, not 128.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> from paneldraw import Framebuffer
+        >>> fb = Framebuffer(6, 2)
+        >>> fb.image(np.array([[255, 0]], np.uint8), size=(6, 2))
+        >>> print(fb)
+        ###...
+        ###...
         """
-        paint_picture(self.painter.surface, picture, x, y, dither)
+        if size is None and fit is None and fill is None and crop is None and gamma == 1 and invert is False:
+            if paint_picture(self.painter.surface, picture, x, y, dither, op):
+                return
+        elif size is not None:
+            size = checked_size(size)
+        check_fit(fit)
+        if fit is not None and size is None:
+            size = (self.width, self.height)
+        options = {"size": size, "fit": fit, "crop": crop}
+        tones = {"dither": dither, "gamma": gamma, "invert": invert}
+        paint_seen(self.painter.surface, self.pixels, picture, (x, y, op), fill, options, tones)
 
     def blit(
         self,
-        source: Framebuffer | NDArray[np.uint8],
+        source: Framebuffer | Sprite | NDArray[np.uint8],
         x: int | float,
         y: int | float,
         key: int = -1,
         palette: Any = None,
+        *,
+        op: str = "over",
     ) -> None:
         """Copy another framebuffer's pixels, its top-left pixel to (x, y).
 
         Parameters
         ----------
-        source : Framebuffer or ndarray of uint8, shape (height, width)
+        source : Framebuffer, Sprite or ndarray of uint8, shape (height, width)
             May be this framebuffer or a view of it. Levels of a framebuffer of another depth are scaled, so that its
             highest level becomes this one's; an array's must be levels of this framebuffer.
         x, y : int or float
@@ -942,6 +1002,8 @@ class Framebuffer:
             The level, after `palette` or scaling, that is not copied; -1 for none.
         palette : Framebuffer of height 1 or sequence of int, optional
             Pixel or item k says which level stands for level k of the source, which then is not scaled.
+        op : {"over", "xor", "add", "max", "clear"}
+            How a level meets what is there.
 
         Raises
         ------
@@ -962,7 +1024,7 @@ class Framebuffer:
         #...#
         .#.#.
         """
-        copy_levels(self.painter.surface, _surface_of(source), x, y, key, palette)
+        copy_levels(self.painter.surface, _surface_of(source), x, y, key, palette, op)
 
     def scroll(self, dx: int | float, dy: int | float, c: int | None = None) -> None:
         """Move the picture by (dx, dy) pixels. What nothing moves to stays as it was or, with `c`, gets that level.

@@ -37,6 +37,6 @@ cdef void block(
     Surface surface, long long x1, long long y1, long long x2, long long y2, int level, int op
 ) noexcept nogil
 cdef void scroll(Surface surface, long long dx, long long dy, int level) noexcept nogil
-cdef object blit(Surface surface, Picture picture, long long x, long long y, int key)
-cdef object paint_grays(Surface surface, Picture picture, long long x, long long y)
-cdef object mix(Surface surface, Picture picture, Picture opacity, long long x, long long y)
+cdef object blit(Surface surface, Picture picture, long long x, long long y, int key, int op)
+cdef object paint_grays(Surface surface, Picture picture, long long x, long long y, int op)
+cdef object mix(Surface surface, Picture picture, Picture opacity, long long x, long long y, int key, int op)

@@ -8,7 +8,8 @@ import cython
 from cython.cimports.cpython.buffer import PyBUF_RECORDS_RO, PyBuffer_Release, PyObject_CheckBuffer, PyObject_GetBuffer
 from cython.cimports.cpython.pycapsule import PyCapsule_GetPointer
 from cython.cimports.libc.string import memmove, memset
-from cython.cimports.paneldraw.raster.surface import Surface, near
+from cython.cimports.paneldraw.raster.paint import inverse_of, meet
+from cython.cimports.paneldraw.raster.surface import ADD, CLEAR, OVER, XOR, Surface, near
 
 if not cython.compiled:
     ArrowArray = type("ArrowArray", (), {})
@@ -306,12 +307,15 @@ def scroll(surface, dx, dy, level):
             block(surface, right + dx, top, right, bottom, level, 0)
 
 
-def blit(surface, picture, x, y, key):
+def blit(surface, picture, x, y, key, op):
     """Copy a picture of levels, its top-left pixel to (x, y), but for the level `key`, or with -1 all of it."""
     i: cython.Py_ssize_t
     level: cython.uchar
     one: cython.uchar
     zero: cython.uchar
+    if op != OVER:
+        _blend(surface, picture, x, y, key, op)
+        return
     if not picture.place(surface, x, y):
         return
     source: cython.p_uchar = picture.start
@@ -353,18 +357,48 @@ def blit(surface, picture, x, y, key):
         target += surface.stride
 
 
-def paint_grays(surface, picture, x, y):
+@cython.cfunc
+def _blend(surface: Surface, picture: Picture, x: cython.longlong, y: cython.longlong, key: cython.int, op: cython.int):
+    """As `blit`, for the operations that look at what is there."""
+    i: cython.Py_ssize_t
+    level: cython.int
+    old: cython.int
+    top: cython.int = surface.max_level
+    if not picture.place(surface, x, y):
+        return
+    start: cython.Py_ssize_t = picture.first
+    target: cython.Py_ssize_t = picture.target
+    pixels: cython.p_uchar = surface.pixels
+    for _ in range(picture.rows):
+        for i in range(picture.count):
+            level = picture.start[start + i * picture.across]
+            if picture.mapped:
+                level = picture.table[level]
+            if level == key:
+                continue
+            old = pixels[target + i]
+            if op == XOR:
+                pixels[target + i] = old ^ level
+            elif op == ADD:
+                pixels[target + i] = min(old + level, top)
+            else:
+                pixels[target + i] = 0 if op == CLEAR else max(old, level)
+        start += picture.down
+        target += surface.stride
+
+
+def paint_grays(surface, picture, x, y, op):
     """Paint a picture of grays 0 ... 255 or of truths in the nearest levels, its top-left pixel at (x, y)."""
     i: cython.Py_ssize_t
     top: cython.ushort = surface.max_level
     if picture.truths:
         picture.scale(1, top)
-        blit(surface, picture, x, y, -1)
+        blit(surface, picture, x, y, -1, op)
     elif top == 255:
-        blit(surface, picture, x, y, -1)
-    elif picture.across != 1 or not cython.compiled:
+        blit(surface, picture, x, y, -1, op)
+    elif picture.across != 1 or op != OVER or not cython.compiled:
         picture.scale(255, top)
-        blit(surface, picture, x, y, -1)
+        blit(surface, picture, x, y, -1, op)
     elif picture.place(surface, x, y):
         # What the table of `scale` would say, found without it: so the compiler does several at once.
         source: cython.p_uchar = picture.start + picture.first
@@ -376,11 +410,12 @@ def paint_grays(surface, picture, x, y):
             pixels += surface.stride
 
 
-def mix(surface, picture, opacity, x, y):
-    """Paint a picture of levels, its top-left pixel at (x, y), as opaque 0 ... 255 as another one as large says."""
+def mix(surface, picture, opacity, x, y, key, op):
+    """As `blit`, as opaque 0 ... 255 as another picture says that is as large."""
     i: cython.Py_ssize_t
-    level: cython.uint
-    share: cython.uint
+    level: cython.int
+    top: cython.int = surface.max_level
+    inverse: cython.longlong = inverse_of(255)
     if not picture.place(surface, x, y) or not opacity.place(surface, x, y):
         return
     start: cython.Py_ssize_t = picture.first
@@ -392,8 +427,13 @@ def mix(surface, picture, opacity, x, y):
             level = picture.start[start + i * picture.across]
             if picture.mapped:
                 level = picture.table[level]
-            share = opacity.start[first + i * opacity.across]
-            pixels[target + i] = _of_255(pixels[target + i] * (255 - share) + level * share + 127)
+            if level == key:
+                continue
+            if op == CLEAR:
+                level = 0
+            pixels[target + i] = meet(
+                pixels[target + i], level, opacity.start[first + i * opacity.across], 255, inverse, op, top
+            )
         start += picture.down
         first += opacity.down
         target += surface.stride

@@ -1,0 +1,138 @@
+"""Pictures as other programs hold them in bytes and in C source."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from paneldraw.framebuffer.pictures import Levels
+
+Format = Literal["MONO_HLSB", "MONO_HMSB", "MONO_VLSB", "MONO_VMSB", "GS2_HMSB", "GS4_HMSB", "GS8", "RGB565"]
+
+
+def _bits_across(data: NDArray[np.uint8], width: int, height: int, order: Literal["big", "little"]) -> Levels:
+    rows = data[: height * ((width + 7) // 8)].reshape(height, -1)
+    return np.unpackbits(rows, axis=1, bitorder=order)[:, :width]
+
+
+def _bits_down(data: NDArray[np.uint8], width: int, height: int, order: Literal["big", "little"]) -> Levels:
+    pages = data[: (height + 7) // 8 * width].reshape(-1, width)
+    return np.unpackbits(pages[:, np.newaxis], axis=1, bitorder=order).reshape(-1, width)[:height]
+
+
+def _parts(data: NDArray[np.uint8], width: int, height: int, shifts: tuple[int, ...]) -> Levels:
+    """Several pixels a byte, the first one shifted left by the first of `shifts`."""
+    wide = -(-width // len(shifts))
+    rows = data[: height * wide].reshape(height, wide, 1)
+    return ((rows >> np.array(shifts, np.uint8)) & (1 << 8 // len(shifts)) - 1).reshape(height, -1)[:, :width]
+
+
+def _colors(data: NDArray[np.uint8], width: int, height: int) -> Levels:
+    """Five bits of red, six of green and five of blue, the low byte first, as their luma."""
+    words = data.view("<u2").reshape(height, width).astype(int)
+    luma = 299 * (words >> 11) * 255 / 31 + 587 * (words >> 5 & 63) * 255 / 63 + 114 * (words & 31) * 255 / 31
+    return np.rint(luma / 1000).astype(np.uint8)
+
+
+#: By name: bits a pixel of the result, how many bytes a picture has, and what reads them.
+_FORMATS: dict[str, tuple[int, Callable[[int, int], int], Callable[..., Levels]]] = {
+    "MONO_HLSB": (1, lambda w, h: (w + 7) // 8 * h, lambda *given: _bits_across(*given, "big")),
+    "MONO_HMSB": (1, lambda w, h: (w + 7) // 8 * h, lambda *given: _bits_across(*given, "little")),
+    "MONO_VLSB": (1, lambda w, h: (h + 7) // 8 * w, lambda *given: _bits_down(*given, "little")),
+    "MONO_VMSB": (1, lambda w, h: (h + 7) // 8 * w, lambda *given: _bits_down(*given, "big")),
+    "GS2_HMSB": (2, lambda w, h: (w + 3) // 4 * h, lambda *given: _parts(*given, (0, 2, 4, 6))),
+    "GS4_HMSB": (4, lambda w, h: (w + 1) // 2 * h, lambda *given: _parts(*given, (4, 0))),
+    "GS8": (8, lambda w, h: w * h, lambda data, w, h: data.reshape(h, w)),
+    "RGB565": (8, lambda w, h: 2 * w * h, _colors),
+}
+
+
+def read_bytes(data: Any, width: int, height: int, format: str) -> tuple[Levels, int]:
+    """Return levels of shape (height, width), and bits a pixel; see `Sprite.from_bytes`."""
+    if not isinstance(format, str) or format not in _FORMATS:
+        raise ValueError(f"format must be one of {', '.join(_FORMATS)}, not {format!r}")
+    depth, length, read = _FORMATS[format]
+    held = _held(data)
+    wanted = length(width, height)
+    if held.size != wanted:
+        raise ValueError(f"{width} x {height} pixels of {format} are {wanted} bytes, and data has {held.size}")
+    return np.ascontiguousarray(read(held, width, height)), depth
+
+
+def _held(data: Any) -> NDArray[np.uint8]:
+    try:
+        if isinstance(data, (int, str)):
+            raise TypeError
+        # numpy refuses bytes of which there are none.
+        return np.frombuffer(bytes(data) + b"\0", np.uint8)[:-1]
+    except (TypeError, ValueError):
+        raise TypeError(f"data must be bytes or numbers 0 ... 255, not {type(data).__name__}") from None
+
+
+# -- C source
+
+_COMMENT = re.compile(r"/\*.*?\*/|//[^\n]*", re.S)
+_ARRAY = re.compile(
+    r"(?P<type>[\w\s]*?)\b(?P<name>\w+)\s*(?:\[[^\]]*\]\s*)+[^={};]*=\s*(?P<body>\{(?:[^{};]|\{[^{};]*\})*\})"
+)
+_WORDS = re.compile(r"\b(?:short|u?int16_t)\b")
+_SIZE_IN_COMMENT = re.compile(r"(\d+)\s*[xX]\s*(\d+)\s*(?:px|pixels?)?")
+
+
+def c_arrays(text: str) -> dict[str, bytes]:
+    """Return the arrays of numbers of a C source, by name; those of 16 bits the low byte first."""
+    found = {}
+    for array in _ARRAY.finditer(_COMMENT.sub(" ", text)):
+        name = array["name"]
+        size = 2 if _WORDS.search(array["type"]) else 1
+        numbers = [
+            _number(word) for word in array["body"].replace("{", " ").replace("}", " ").replace(",", " ").split()
+        ]
+        if any(not -(1 << 8 * size - 1) <= number < 1 << 8 * size for number in numbers):
+            raise ValueError(f"{name} holds numbers of more than {8 * size} bits")
+        found[name] = b"".join((number % (1 << 8 * size)).to_bytes(size, "little") for number in numbers)
+    return found
+
+
+def _number(word: str) -> int:
+    """The value of a C number, or of one of Arduino's like B0110."""
+    digits = re.sub(r"(?i)u?l*$", "", word)
+    for pattern, base in (
+        ("B[01]+", 2),
+        ("0[bB][01]+", 2),
+        ("0[xX][0-9a-fA-F]+", 16),
+        ("0[0-7]*", 8),
+        ("-?[1-9][0-9]*", 10),
+    ):
+        if re.fullmatch(pattern, digits):
+            return int(digits.lstrip("B"), base)
+    raise ValueError(f"{word!r} is no number; an array of bytes is wanted")
+
+
+def array_of(text: str, name: str | None) -> tuple[str, bytes]:
+    """Return the name and bytes of one array of a C source: the one called `name`, else the only one."""
+    arrays = c_arrays(text)
+    if name is None and len(arrays) == 1:
+        (name,) = arrays
+    if name is None or name not in arrays:
+        there = ", ".join(arrays) or "none"
+        raise ValueError(f"the text has no array of bytes {name or 'alone'}: name one of those there, {there}")
+    return name, arrays[name]
+
+
+def size_of(text: str, name: str) -> tuple[int, int] | None:
+    """Return the width and height that a C source tells of an array: in ``#define``s, or in the comment before it."""
+    stem = re.sub(r"_?bits$", "", name)
+    define = rf"^\s*#\s*define\s+{re.escape(stem)}_?%s\s+(\d+)"
+    wide, high = (re.search(define % side, text, re.M | re.I) for side in ("width", "height"))
+    if wide and high:
+        return int(wide[1]), int(high[1])
+    at = re.search(rf"\b{re.escape(name)}\b\s*\[", text)
+    before = text[: at.start() if at else 0]
+    comments = _COMMENT.findall(before)
+    told = _SIZE_IN_COMMENT.search(comments[-1]) if comments else None
+    return (int(told[1]), int(told[2])) if told else None
