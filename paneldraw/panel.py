@@ -23,6 +23,8 @@ from paneldraw.controllers.packing import highest
 from paneldraw.driver import Driver
 from paneldraw.errors import PanelError, PanelTimeoutError, TransportError, did_you_mean
 from paneldraw.framebuffer import Framebuffer, pictures
+from paneldraw.framebuffer.pictures import Dither
+from paneldraw.framebuffer.scaling import Fit
 from paneldraw.leaving import arrange, follow
 from paneldraw.pacing import Frames
 from paneldraw.sender import Sender
@@ -211,6 +213,7 @@ class Panel:
         level = None if contrast is None else _checked_contrast(controller, contrast)
         self._driver: Driver = Driver(controller, transport, self.stats, updates, level, refresh)
         self._own: Framebuffer | None = None
+        self._dithered = np.zeros((0, 0), np.uint8)  # the last picture that was dithered "stable"
         self._last: tuple[Levels, int] = (np.zeros((0, 0), np.uint8), 0)  # the last picture, where it needs care
 
     @property
@@ -279,20 +282,32 @@ class Panel:
         self._own = picture
         self.show(picture)
 
-    def show(self, source: Any = None, *, force: bool = False, wait: bool = True) -> Report:
+    def show(
+        self,
+        source: Any = None,
+        *,
+        force: bool = False,
+        wait: bool = True,
+        dither: Dither | None = None,
+        gamma: float = 1.0,
+    ) -> Report:
         """Bring a picture onto the panel by sending what differs from the last one.
 
         Parameters
         ----------
         source : Framebuffer, numpy array, Pillow image or path, optional
             A picture of the panel's width and height; a path is that of a file that Pillow reads. An array is
-            (height, width), bool or integer levels from 0 to the panel's highest. What is deeper than the panel is
-            reduced to its nearest levels. Default: the picture of the last `frame`.
+            (height, width), bool or integer levels from 0 to the panel's highest. What is transparent is dark. What is
+            deeper than the panel is reduced to its levels as `dither` and `gamma` say. Default: the picture of the last
+            `frame`.
         force : bool, optional
             Start the chip anew and send everything, changed or not. Default: False.
         wait : bool, optional
             False hands a copy of the picture to a thread that shows it, and returns at once. Of pictures that wait
             there the latest wins; what goes wrong is raised by the next call, or by `flush`. Default: True.
+        dither, gamma : optional
+            How grays become levels, as in `Framebuffer.image`; with ``"stable"``, pixels keep the level of the last
+            picture that was shown so. Default: the nearest level.
 
         Returns
         -------
@@ -314,7 +329,7 @@ class Panel:
         """
         if self._closed or self._foreign or (self._sender is not None and self._sender.error is not None):
             self._listen()
-        pixels, max_level = self._levels(source)
+        pixels, max_level = self._levels(source, dither, gamma)
         if wait and self._sender is None:
             return self._show(pixels, max_level, force)
         if not wait:
@@ -374,6 +389,52 @@ class Panel:
         ...         break
         """
         return Frames(fps)
+
+    def play(
+        self,
+        source: Any,
+        *,
+        loops: int | None = None,
+        fit: Fit = "contain",
+        dither: Dither | None = "stable",
+        gamma: float = 1.0,
+        invert: bool = False,
+    ) -> int:
+        """Show an animated GIF, APNG or WebP, each frame as long as it says, and return how many frames were shown.
+
+        Frames whose time is over before they can be shown are left out.
+
+        Parameters
+        ----------
+        source : path, PIL.Image.Image or Animation
+        loops : int, optional
+            How often to play it, 0 for ever. Default: as it says itself.
+        fit, dither, gamma, invert
+            As in `Framebuffer.image`. Default: the whole of it in the middle, ``"stable"``.
+
+        Raises
+        ------
+        ValueError
+            If an option is none.
+        OSError
+            If the file cannot be read.
+        TransportError
+            The panel could not be reached.
+
+        Examples
+        --------
+        >>> from PIL import Image
+        >>> film = [Image.new("L", (128, 64), gray) for gray in (0, 128, 255)]
+        >>> film[0].save("film.gif", save_all=True, append_images=film[1:], duration=20)
+        >>> panel = open_panel("sim://ssd1306")
+        >>> panel.play("film.gif")
+        3
+        """
+        from paneldraw.animation import play
+
+        if loops is not None and operator.index(loops) < 0:
+            raise ValueError(f"loops must be 0, for ever, or more, not {loops}")
+        return play(self, source, loops, {"fit": fit, "dither": dither, "gamma": gamma, "invert": invert})
 
     def clear(self) -> Report:
         """Show a black picture."""
@@ -634,23 +695,30 @@ class Panel:
             self._own = self.framebuffer()
         return self._own
 
-    def _levels(self, source: Any) -> tuple[Levels, int]:
+    def _levels(self, source: Any, dither: Dither | None = None, gamma: float = 1.0) -> tuple[Levels, int]:
         if source is None:
             source = self._own_picture()
         if isinstance(source, Framebuffer):
             pixels, max_level = source.pixels, source.max_level
         elif isinstance(source, np.ndarray):
             pixels, max_level = _array(source, self.depth)
-        elif isinstance(source, (str, os.PathLike)):
-            pixels, max_level = pictures.to_gray(pictures.opened(source))[0], 255
-        elif (pillow := sys.modules.get("PIL.Image")) is not None and isinstance(source, pillow.Image):
-            pixels, max_level = pictures.to_gray(source)[0], 255
+        elif isinstance(source, (str, os.PathLike)) or (
+            (pillow := sys.modules.get("PIL.Image")) is not None and isinstance(source, pillow.Image)
+        ):
+            pixels, max_level = _on_black(source), 255
         else:
             kind = type(source).__name__
             raise TypeError(f"source must be a Framebuffer, numpy array, Pillow image or file name, not {kind}")
         if pixels.shape != (self._size[1], self._size[0]):
             size = f"{pixels.shape[1]} x {pixels.shape[0]}" if pixels.ndim == 2 else f"an array of shape {pixels.shape}"
             raise ValueError(f"source must be {self.width} x {self.height} pixels like the panel, not {size}")
+        if dither is not None or gamma != 1:
+            top = 2**self.depth - 1
+            before = self._dithered if self._dithered.shape == pixels.shape else None
+            grays = pixels * np.uint8(255 // max_level)
+            pixels, max_level = pictures.quantize(grays, top, dither, gamma=gamma, before=before), top
+            if dither == "stable":
+                self._dithered = pixels
         return pixels, max_level
 
     def _upright(self, pixels: Levels) -> Levels:
@@ -806,6 +874,12 @@ def _checked_contrast(controller: Controller, level: int) -> int:
     if not 0 <= level <= 255:
         raise ValueError(f"contrast must be 0 to 255, not {level!r}")
     return level
+
+
+def _on_black(source: Any) -> Levels:
+    """The grays of a picture, dark where it is transparent."""
+    grays, alpha = pictures.to_gray(source)
+    return grays if alpha is None else ((grays.astype(np.uint16) * alpha + 127) // 255).astype(np.uint8)
 
 
 def _array(source: npt.NDArray[Any], depth: int) -> tuple[Levels, int]:

@@ -18,10 +18,9 @@ from typing import TYPE_CHECKING, Any, NoReturn
 from paneldraw.errors import PanelError
 
 if TYPE_CHECKING:
-    from PIL.Image import Image
-
+    from paneldraw.animation import Animation
     from paneldraw.framebuffer import Framebuffer
-    from paneldraw.panel import Panel
+    from paneldraw.panel import Panel, Report
     from paneldraw.text import Font
 
 
@@ -226,49 +225,83 @@ def _demo(options: argparse.Namespace) -> int:
 
 
 def _add_show(commands: _Commands) -> None:
-    parser = _command(commands, "show", _show, "show a picture, as large as fits")
+    parser = _command(commands, "show", _show, "show a picture, as large as fits, or play one that moves")
     parser.add_argument("picture", type=Path, metavar="PICTURE", help="a file that Pillow reads: PNG, JPEG, GIF, ...")
     parser.add_argument(
         "--fit", choices=["contain", "cover", "stretch"], default="contain", help="how it meets the edges (contain)"
     )
     parser.add_argument(
-        "--dither", choices=["none", "bayer", "floyd-steinberg"], default="floyd-steinberg", help="(floyd-steinberg)"
+        "--dither",
+        choices=["none", "bayer", "floyd-steinberg", "blue-noise", "stable"],
+        help="(floyd-steinberg; stable if it moves)",
     )
+    parser.add_argument("--gamma", type=_positive(float, 100), default=1.0, help="2.2 for the light of the file (1)")
     parser.add_argument("--invert", action="store_true", help="swap light and dark")
+    parser.add_argument(
+        "--loops", type=_positive(int, 1 << 30), metavar="N", help="how often to play it (as it says; once in a pipe)"
+    )
 
 
 def _show(options: argparse.Namespace) -> int:
-    from PIL import ImageOps
+    from paneldraw.animation import Animation
+    from paneldraw.framebuffer import pictures
 
-    picture = _read_picture(options.picture)
-    if options.invert:
-        picture = ImageOps.invert(picture)
+    with _picture_errors(options.picture):
+        animation = Animation(options.picture)
+        moves = len(animation) > 1
+        still = None if moves else pictures.opened(options.picture)
+    dither = options.dither or ("stable" if moves else "floyd-steinberg")
+    how = {"fit": options.fit, "dither": None if dither == "none" else dither}
+    how |= {"gamma": options.gamma, "invert": options.invert}
     with _opened(options) as panel:
+        if moves:
+            with _picture_errors(options.picture):
+                _play(panel, animation, options, how)
+            return 0
         fb = panel.framebuffer()
-        size = (fb.width, fb.height)
-        if options.fit == "stretch":
-            picture = picture.resize(size)
-        else:
-            picture = (ImageOps.pad if options.fit == "contain" else ImageOps.fit)(picture, size)
-        fb.image(picture, 0, 0, dither=None if options.dither == "none" else options.dither)
+        fb.image(still, fill=0, **how)
         _present(panel, fb, str(options.picture))
     return 0
 
 
-def _read_picture(path: Path) -> Image:
-    """Read a picture as grey levels, upright, what is transparent as black."""
-    from PIL import Image, ImageOps, UnidentifiedImageError
+def _play(panel: Panel, animation: Animation, options: argparse.Namespace, how: dict[str, Any]) -> None:
+    """Play a picture that moves: in real time where somebody watches, else once and as fast as it can be drawn."""
+    from paneldraw.animation import play
+    from paneldraw.cli import playback
+
+    chip = playback.simulated(panel)
+    watched = chip is None or sys.stdout.isatty()
+    sent = 0
+    with playback.view_of(chip) as show:
+
+        def shown(report: Report) -> None:
+            nonlocal sent
+            sent += report.wire_bytes
+            show(f"{options.picture}: {sent} bytes on the wire")
+
+        if watched:
+            play(panel, animation, options.loops, how, shown)
+        else:
+            play(panel, animation, options.loops or 1, how, shown, clock=lambda: 0.0, sleep=lambda seconds: None)
+    if chip is None:
+        print(f"{options.picture}: {sent} bytes on the wire")
+
+
+@contextlib.contextmanager
+def _picture_errors(path: Path) -> Iterator[None]:
+    """Say in a line what is wrong with a picture's file."""
+    from PIL import Image, UnidentifiedImageError
 
     try:
-        with Image.open(path) as file:
-            upright = ImageOps.exif_transpose(file).convert("RGBA")
+        yield
     except UnidentifiedImageError:
         raise _UserError(f"{path} is no picture that Pillow reads; convert it to PNG or JPEG") from None
-    except (OSError, SyntaxError, ValueError, Image.DecompressionBombError) as error:
+    except PanelError:
+        raise
+    except (OSError, SyntaxError, ValueError, EOFError, Image.DecompressionBombError) as error:
         if isinstance(error, OSError) and error.errno:
             raise
         raise _UserError(f"cannot read {path}: {_one_line(error)}; is the file whole?") from error
-    return Image.alpha_composite(Image.new("RGBA", upright.size, "black"), upright).convert("L")
 
 
 def _add_text(commands: _Commands) -> None:

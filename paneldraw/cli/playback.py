@@ -8,7 +8,7 @@ import itertools
 import math
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -67,6 +67,13 @@ def print_panel(panel: Panel, caption: str) -> None:
         return
     with TerminalView() as view:
         view.show(chip, caption)
+
+
+@contextlib.contextmanager
+def view_of(chip: Showing | None) -> Iterator[Callable[[str], None]]:
+    """Show a simulated chip again and again, with a caption; of a real panel, which a person can see, nothing."""
+    with TerminalView() if chip else contextlib.nullcontext() as view:
+        yield lambda caption: view.show(chip, caption) if view and chip else None
 
 
 def play(demo: Demo, panel: Panel, name: str, *, frames: float, fps: float, save_to: Path | None = None) -> None:

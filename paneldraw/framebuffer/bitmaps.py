@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
-from typing import Any, Literal
+from functools import partial
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,40 +15,52 @@ from paneldraw.framebuffer.pictures import Levels
 Format = Literal["MONO_HLSB", "MONO_HMSB", "MONO_VLSB", "MONO_VMSB", "GS2_HMSB", "GS4_HMSB", "GS8", "RGB565"]
 
 
-def _bits_across(data: NDArray[np.uint8], width: int, height: int, order: Literal["big", "little"]) -> Levels:
-    rows = data[: height * ((width + 7) // 8)].reshape(height, -1)
-    return np.unpackbits(rows, axis=1, bitorder=order)[:, :width]
+def _bits_across(order: Literal["big", "little"], data: Levels, width: int, height: int) -> Levels:
+    return np.unpackbits(data.reshape(height, -1), axis=1, bitorder=order)[:, :width]
 
 
-def _bits_down(data: NDArray[np.uint8], width: int, height: int, order: Literal["big", "little"]) -> Levels:
-    pages = data[: (height + 7) // 8 * width].reshape(-1, width)
-    return np.unpackbits(pages[:, np.newaxis], axis=1, bitorder=order).reshape(-1, width)[:height]
+def _bits_down(order: Literal["big", "little"], data: Levels, width: int, height: int) -> Levels:
+    pages = data.reshape(-1, 1, width)
+    return np.unpackbits(pages, axis=1, bitorder=order).reshape(-1, width)[:height]
 
 
-def _parts(data: NDArray[np.uint8], width: int, height: int, shifts: tuple[int, ...]) -> Levels:
+def _parts(shifts: tuple[int, ...], data: Levels, width: int, height: int) -> Levels:
     """Several pixels a byte, the first one shifted left by the first of `shifts`."""
-    wide = -(-width // len(shifts))
-    rows = data[: height * wide].reshape(height, wide, 1)
-    return ((rows >> np.array(shifts, np.uint8)) & (1 << 8 // len(shifts)) - 1).reshape(height, -1)[:, :width]
+    shifted = data.reshape(height, -1, 1) >> np.array(shifts, np.uint8)
+    return (shifted & np.uint8((1 << 8 // len(shifts)) - 1)).reshape(height, -1)[:, :width]
 
 
-def _colors(data: NDArray[np.uint8], width: int, height: int) -> Levels:
+def _colors(data: Levels, width: int, height: int) -> Levels:
     """Five bits of red, six of green and five of blue, the low byte first, as their luma."""
     words = data.view("<u2").reshape(height, width).astype(int)
     luma = 299 * (words >> 11) * 255 / 31 + 587 * (words >> 5 & 63) * 255 / 63 + 114 * (words & 31) * 255 / 31
     return np.rint(luma / 1000).astype(np.uint8)
 
 
-#: By name: bits a pixel of the result, how many bytes a picture has, and what reads them.
-_FORMATS: dict[str, tuple[int, Callable[[int, int], int], Callable[..., Levels]]] = {
-    "MONO_HLSB": (1, lambda w, h: (w + 7) // 8 * h, lambda *given: _bits_across(*given, "big")),
-    "MONO_HMSB": (1, lambda w, h: (w + 7) // 8 * h, lambda *given: _bits_across(*given, "little")),
-    "MONO_VLSB": (1, lambda w, h: (h + 7) // 8 * w, lambda *given: _bits_down(*given, "little")),
-    "MONO_VMSB": (1, lambda w, h: (h + 7) // 8 * w, lambda *given: _bits_down(*given, "big")),
-    "GS2_HMSB": (2, lambda w, h: (w + 3) // 4 * h, lambda *given: _parts(*given, (0, 2, 4, 6))),
-    "GS4_HMSB": (4, lambda w, h: (w + 1) // 2 * h, lambda *given: _parts(*given, (4, 0))),
-    "GS8": (8, lambda w, h: w * h, lambda data, w, h: data.reshape(h, w)),
-    "RGB565": (8, lambda w, h: 2 * w * h, _colors),
+class _Format(NamedTuple):
+    depth: int
+    length: Callable[[int, int], int]
+    """How many bytes a picture of a width and height has."""
+    read: Callable[[Levels, int, int], Levels]
+
+
+def _rows(width: int, height: int) -> int:
+    return (width + 7) // 8 * height
+
+
+def _pages(width: int, height: int) -> int:
+    return (height + 7) // 8 * width
+
+
+_FORMATS = {
+    "MONO_HLSB": _Format(1, _rows, partial(_bits_across, "big")),
+    "MONO_HMSB": _Format(1, _rows, partial(_bits_across, "little")),
+    "MONO_VLSB": _Format(1, _pages, partial(_bits_down, "little")),
+    "MONO_VMSB": _Format(1, _pages, partial(_bits_down, "big")),
+    "GS2_HMSB": _Format(2, lambda width, height: (width + 3) // 4 * height, partial(_parts, (0, 2, 4, 6))),
+    "GS4_HMSB": _Format(4, lambda width, height: (width + 1) // 2 * height, partial(_parts, (4, 0))),
+    "GS8": _Format(8, lambda width, height: width * height, lambda data, width, height: data.reshape(height, width)),
+    "RGB565": _Format(8, lambda width, height: 2 * width * height, _colors),
 }
 
 
@@ -55,12 +68,12 @@ def read_bytes(data: Any, width: int, height: int, format: str) -> tuple[Levels,
     """Return levels of shape (height, width), and bits a pixel; see `Sprite.from_bytes`."""
     if not isinstance(format, str) or format not in _FORMATS:
         raise ValueError(f"format must be one of {', '.join(_FORMATS)}, not {format!r}")
-    depth, length, read = _FORMATS[format]
+    known = _FORMATS[format]
     held = _held(data)
-    wanted = length(width, height)
+    wanted = known.length(width, height)
     if held.size != wanted:
         raise ValueError(f"{width} x {height} pixels of {format} are {wanted} bytes, and data has {held.size}")
-    return np.ascontiguousarray(read(held, width, height)), depth
+    return np.ascontiguousarray(known.read(held, width, height)), known.depth
 
 
 def _held(data: Any) -> NDArray[np.uint8]:

@@ -211,7 +211,8 @@ def _planes(source: Levels | Image.Image, white: float | None) -> tuple[list[Lev
         return [grays], alpha
     if pictures.is_transparent(source):
         bands = np.asarray(source.convert("RGBA"))
-        return [bands[:, :, k] for k in range(3)], bands[:, :, 3]
+        opaque = bands[:, :, 3].min() == 255
+        return [bands[:, :, k] for k in range(3)], None if opaque else bands[:, :, 3]
     bands = np.asarray((pictures.from_lab(source) if source.mode == "LAB" else source).convert("RGB"))
     return [bands[:, :, k] for k in range(3)], None
 

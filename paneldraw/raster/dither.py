@@ -83,7 +83,8 @@ def diffuse(grays: Any, levels: Any, values: Any, max_level: cython.int) -> None
     height: cython.Py_ssize_t = grays.shape[0]
     width: cython.Py_ssize_t = grays.shape[1]
     # What the row above hands to pixel x - 1 of this one, and then this one to that below.
-    carried: cython.double[::1] = memoryview(np.zeros(width + 1))
+    nothing: Any = np.zeros(width + 1)
+    carried: cython.double[::1] = memoryview(nothing)
     x: cython.Py_ssize_t
     y: cython.Py_ssize_t
     level: cython.long
