@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import bisect
+import contextlib
 import itertools
 import struct
 import time
@@ -70,7 +71,8 @@ class Animation:
         self._ends: list[float] = []
 
     def __len__(self) -> int:
-        return int(getattr(self._file, "n_frames", 1))
+        with _readable("the number of frames"):
+            return int(getattr(self._file, "n_frames", 1))
 
     def frame(self, number: int) -> tuple[Image.Image, float]:
         """Return a frame, the first one being 0, and the seconds that it lasts.
@@ -80,28 +82,23 @@ class Animation:
         IndexError
             If there is none of this number.
         """
-        try:
-            if number or getattr(self._file, "is_animated", False):
+        if not 0 <= number < len(self):
+            raise IndexError(f"the picture has no frame {number}")
+        with _readable(f"frame {number}"):
+            if len(self) > 1:
                 self._file.seek(number)
             self._file.load()
             seconds = float(self._file.info.get("duration", 0)) / 1000
             return self._file.convert("RGBA"), seconds if seconds > 0 else DEFAULT_SECONDS
-        except EOFError:
-            raise IndexError(f"the picture has no frame {number}") from None
-        except (SyntaxError, ValueError, IndexError, struct.error) as error:
-            raise OSError(f"frame {number} of the picture cannot be read: {error}") from error
 
     def __iter__(self) -> Iterator[tuple[Image.Image, float]]:
-        for number in itertools.count():
-            try:
-                yield self.frame(number)
-            except IndexError:
-                return
+        for number in range(len(self)):
+            yield self.frame(number)
 
     @property
     def seconds(self) -> float:
         """How long all frames last together."""
-        return self._known_ends()[-1]
+        return self._known_ends()[-1] / 1000
 
     def at(self, seconds: float) -> Image.Image:
         """Return the frame that is seen some seconds after the start, over and over, however often it is to be played.
@@ -111,13 +108,27 @@ class Animation:
         seconds : float
         """
         ends = self._known_ends()
-        number = bisect.bisect_right(ends, seconds % ends[-1])
+        number = bisect.bisect_right(ends, round(1000 * seconds, 6) % ends[-1])
         return self.frame(min(number, len(ends) - 1))[0]
 
     def _known_ends(self) -> list[float]:
         if not self._ends:
-            self._ends = list(itertools.accumulate(seconds for _, seconds in self))
+            self._ends = list(itertools.accumulate(_milliseconds(seconds) for _, seconds in self))
         return self._ends
+
+
+def _milliseconds(seconds: float) -> float:
+    """What files count in, without the errors of adding up tenths."""
+    return round(1000 * seconds, 6)
+
+
+@contextlib.contextmanager
+def _readable(what: str) -> Iterator[None]:
+    """Say in one way what is wrong with a file: Pillow raises what its readers stumble over."""
+    try:
+        yield
+    except (SyntaxError, ValueError, LookupError, EOFError, TypeError, struct.error) as error:
+        raise OSError(f"{what} of the picture cannot be read: {error}") from error
 
 
 def play(
@@ -141,14 +152,14 @@ def play(
     due, count = 0.0, 0
     for _ in itertools.repeat(None, times) if times else itertools.count():
         for image, seconds in animation:
-            due += seconds
-            if count and clock() - start >= due:
+            begin, due = due, due + _milliseconds(seconds)
+            if count and 1000 * (clock() - start) >= due:
                 continue
             fb.image(image, fill=0, **options)
-            sleep(max(due - seconds - (clock() - start), 0))
+            sleep(max(begin / 1000 - (clock() - start), 0))
             shown(panel.show(fb))
             count += 1
         if len(animation) == 1:
             return count
-    sleep(max(due - (clock() - start), 0))
+    sleep(max(due / 1000 - (clock() - start), 0))
     return count

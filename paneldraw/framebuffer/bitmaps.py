@@ -96,19 +96,13 @@ _WORDS = re.compile(r"\b(?:short|u?int16_t)\b")
 _SIZE_IN_COMMENT = re.compile(r"(\d+)\s*[xX]\s*(\d+)\s*(?:px|pixels?)?")
 
 
-def c_arrays(text: str) -> dict[str, bytes]:
-    """Return the arrays of numbers of a C source, by name; those of 16 bits the low byte first."""
-    found = {}
-    for array in _ARRAY.finditer(_COMMENT.sub(" ", text)):
-        name = array["name"]
-        size = 2 if _WORDS.search(array["type"]) else 1
-        numbers = [
-            _number(word) for word in array["body"].replace("{", " ").replace("}", " ").replace(",", " ").split()
-        ]
-        if any(not -(1 << 8 * size - 1) <= number < 1 << 8 * size for number in numbers):
-            raise ValueError(f"{name} holds numbers of more than {8 * size} bits")
-        found[name] = b"".join((number % (1 << 8 * size)).to_bytes(size, "little") for number in numbers)
-    return found
+def _bytes_of(array: re.Match[str]) -> bytes:
+    """The bytes that an array holds; numbers of 16 bits the low byte first."""
+    size = 2 if _WORDS.search(array["type"]) else 1
+    numbers = [_number(word) for word in re.split(r"[{},\s]+", array["body"].strip("{} ,\t\r\n")) if word]
+    if any(not -(1 << 8 * size - 1) <= number < 1 << 8 * size for number in numbers):
+        raise ValueError(f"{array['name']} holds numbers of more than {8 * size} bits")
+    return b"".join((number % (1 << 8 * size)).to_bytes(size, "little") for number in numbers)
 
 
 def _number(word: str) -> int:
@@ -127,14 +121,15 @@ def _number(word: str) -> int:
 
 
 def array_of(text: str, name: str | None) -> tuple[str, bytes]:
-    """Return the name and bytes of one array of a C source: the one called `name`, else the only one."""
-    arrays = c_arrays(text)
-    if name is None and len(arrays) == 1:
-        (name,) = arrays
+    """Return the name and bytes of one array of a C source: the one called `name`, else the only one of numbers."""
+    arrays = {array["name"]: array for array in _ARRAY.finditer(_COMMENT.sub(" ", text))}
+    likely = [one for one, array in arrays.items() if re.search(r"\d", array["body"].split(",")[0])] or list(arrays)
+    if name is None and len(likely) == 1:
+        name = likely[0]
     if name is None or name not in arrays:
         there = ", ".join(arrays) or "none"
-        raise ValueError(f"the text has no array of bytes {name or 'alone'}: name one of those there, {there}")
-    return name, arrays[name]
+        raise ValueError(f"the text has no array {name or 'alone'}; there are: {there}")
+    return name, _bytes_of(arrays[name])
 
 
 def size_of(text: str, name: str) -> tuple[int, int] | None:

@@ -8,6 +8,8 @@ cdef object paint_seen(
     Surface surface, object before, object picture, tuple place, object fill, dict options, dict tones
 )
 cdef int operation(object op) except -1
-cdef object copy_levels(Surface surface, object source, object x, object y, object key, object palette, object op)
+cdef object copy_levels(
+    Surface surface, object source, object cover, object x, object y, object key, object palette, object op
+)
 cdef Picture _levels_of(Surface surface, object source, object palette)
 cdef object move_levels(Surface surface, object dx, object dy, object c)

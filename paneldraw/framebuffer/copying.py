@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import cython
-import numpy as np
 from cython.cimports.paneldraw.framebuffer.arguments import BEYOND, is_word, level, near_pixel, top_left, uint8s
 from cython.cimports.paneldraw.raster.blit import Picture, blit, block, mix, paint_grays, scroll
 from cython.cimports.paneldraw.raster.glyphs import Glyphs, one_line, stamp, write
@@ -106,16 +105,12 @@ def operation(op):
     return OVER if is_word(op, "over") else choice("op", op, OPS)
 
 
-def copy_levels(surface, source, x, y, key, palette, op):
-    """Copy the levels of a surface, of an array or of a sprite."""
+def copy_levels(surface, source, cover, x, y, key, palette, op):
+    """Copy the levels of a surface or of an array, as opaque as `cover` says, if that is not None."""
     left: cython.longlong = top_left("x", x)
     top: cython.longlong = top_left("y", y)
     without: cython.int = min(max(size("key", key), -1), 256)
     code: cython.int = operation(op)
-    cover = None
-    if not isinstance(source, (Surface, np.ndarray)):
-        cover = getattr(source, "opacity", None)
-        source = getattr(source, "levels", source)
     levels: Picture = _levels_of(surface, source, palette)
     if cover is None:
         blit(surface, levels, left, top, without, code)

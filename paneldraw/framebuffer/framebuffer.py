@@ -1024,7 +1024,12 @@ class Framebuffer:
         #...#
         .#.#.
         """
-        copy_levels(self.painter.surface, _surface_of(source), x, y, key, palette, op)
+        cover = None
+        if not isinstance(source, (Framebuffer, np.ndarray)) and isinstance(
+            getattr(source, "levels", None), Framebuffer
+        ):
+            source, cover = source.levels, source.opacity
+        copy_levels(self.painter.surface, _surface_of(source), cover, x, y, key, palette, op)
 
     def scroll(self, dx: int | float, dy: int | float, c: int | None = None) -> None:
         """Move the picture by (dx, dy) pixels. What nothing moves to stays as it was or, with `c`, gets that level.

@@ -42,12 +42,20 @@ def to_image(levels: Levels, max_level: int, scale: int = 1) -> Image.Image:
 
 
 def opened(path: str | os.PathLike[str]) -> Image.Image:
-    """Read a picture's file, upright."""
-    from PIL import Image
+    """Read a picture's file, upright. An X bitmap may be one that only C compilers read."""
+    from PIL import Image, UnidentifiedImageError
 
-    with Image.open(path) as file:
-        file.load()
-        return upright(file)
+    try:
+        with Image.open(path) as file:
+            file.load()
+            return upright(file)
+    except UnidentifiedImageError:
+        if os.fspath(path).lower().endswith(".xbm"):
+            from paneldraw.framebuffer.sprites import Sprite
+
+            with open(path, encoding="latin-1") as text:
+                return Image.fromarray(Sprite.xbm(text.read()).as_image())
+        raise
 
 
 def to_png(levels: Levels, max_level: int, scale: int = 1) -> bytes:
@@ -252,7 +260,8 @@ def quantize(
         None takes the nearest level; ``"bayer"`` the ordered dither of an 8 x 8 matrix, which keeps still pictures
         still; ``"blue-noise"`` an ordered dither of a 64 x 64 matrix without a visible pattern; ``"floyd-steinberg"``
         diffuses each pixel's error to its neighbors. ``"stable"`` is ``"blue-noise"`` in which a pixel keeps the level
-        that it has `before` unless that is more than 1/50 of a level off: noise does not make it flicker.
+        that it has `before` unless that is more than 1/50 of a level off, or less near a level itself: noise does
+        not make it flicker, and white is white.
     gamma : float, default 1.0
         A gray g of 255 becomes the share (g / 255) ** gamma of the highest level: 2.2 where levels are shares of light.
     invert : bool, default False

@@ -187,7 +187,7 @@ def _scaled(
     from PIL import Image
 
     planes, alpha = _planes(source, white)
-    few = len(planes) == 1 and _two_shades(source)
+    few = len(planes) == 1 and not (planes[0] - np.uint8(1) < 254).any()  # black and white alone stay so
     share = None if alpha is None else alpha.astype(np.float32) / np.float32(255)
     opacity = None if share is None else _resized(share, part, size, few)
     scaled = []
@@ -215,13 +215,6 @@ def _planes(source: Levels | Image.Image, white: float | None) -> tuple[list[Lev
         return [bands[:, :, k] for k in range(3)], None if opaque else bands[:, :, 3]
     bands = np.asarray((pictures.from_lab(source) if source.mode == "LAB" else source).convert("RGB"))
     return [bands[:, :, k] for k in range(3)], None
-
-
-def _two_shades(source: Levels | Image.Image) -> bool:
-    """Whether a picture is black and white alone: enlarged, it stays so."""
-    if isinstance(source, np.ndarray):
-        return not ((source != 0) & (source != 255)).any()
-    return source.mode == "1"
 
 
 def _resized(

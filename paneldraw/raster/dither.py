@@ -35,7 +35,7 @@ def ordered(
     place : tuple of int
         Where the first pixel lies in that plane: x and y, 0 or more.
     hold : int
-        By how many parts of a level a value may leave the level that was there, which stays; 0 for none.
+        By how many parts of a level, at most, a value may leave the level that was there, which stays; 0 for none.
     """
     source: cython.const[cython.uchar][:, :] = memoryview(grays)  # type: ignore[valid-type]
     target: cython.uchar[:, :] = memoryview(levels)
@@ -50,16 +50,23 @@ def ordered(
     y: cython.Py_ssize_t
     i: cython.Py_ssize_t
     j: cython.Py_ssize_t
+    exact: cython.int
     found: cython.int
+    reach: cython.int
     above: cython.int
     for y in range(height):
         j = (top + y) % side
         i = left % side
         for x in range(width):
-            found = value[source[y, x]] + matrix[j, i]
-            above = found - target[y, x] * _ONE
-            if hold == 0 or above < -hold or above >= _ONE + hold:
-                target[y, x] = found >> 20
+            exact = value[source[y, x]]
+            found = exact + matrix[j, i]
+            if hold > 0:
+                # Less near a level, which is held by itself: white is white.
+                reach = min(hold, exact & (_ONE - 1), _ONE - (exact & (_ONE - 1)))
+                above = found - target[y, x] * _ONE
+                if -reach <= above < _ONE + reach:
+                    found = target[y, x] * _ONE
+            target[y, x] = found >> 20
             i += 1
             if i == side:
                 i = 0
