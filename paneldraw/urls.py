@@ -22,10 +22,7 @@ _FORMS: Final = {
 }
 _PYSERIAL: Final = ("rfc2217", "socket", "loop")
 _PANEL: Final = {
-    "rotate": "180",
-    "contrast": "200",
-    "on_close": "",
-    "updates": "",
+    "rotate": "180", "contrast": "200", "on_close": "", "updates": "",
     **dict.fromkeys(("refresh", "dim_after", "off_after", "pixel_shift"), "60"),
 }
 """Settings of `Panel`, each with an example where it is a number."""

@@ -1024,11 +1024,10 @@ class Framebuffer:
         #...#
         .#.#.
         """
-        cover = None
-        if not isinstance(source, (Framebuffer, np.ndarray)) and isinstance(
-            getattr(source, "levels", None), Framebuffer
-        ):
-            source, cover = source.levels, source.opacity
+        cover: Any = None
+        if not isinstance(source, (Framebuffer, np.ndarray)):
+            cover = getattr(source, "opacity", None)
+            source = getattr(source, "levels", source)
         copy_levels(self.painter.surface, _surface_of(source), cover, x, y, key, palette, op)
 
     def scroll(self, dx: int | float, dy: int | float, c: int | None = None) -> None:

@@ -72,6 +72,8 @@ def seen(
         Whether what lies above and at the left decides too, as it does where errors are diffused.
     """
     source = pictures.as_picture(picture)
+    if isinstance(source, np.ndarray) and size is None and crop is None and not diffused:
+        return _seen_of_array(source, place, window)
     white = None if isinstance(source, np.ndarray) else pictures.white_of(source)
     box = _crop_box(source, crop)
     if box[0] == box[2] or box[1] == box[3]:
@@ -97,6 +99,17 @@ def seen(
         grays, alpha = _scaled(source, plan.part, (plan.width, plan.height), white)
         grays, alpha = grays[top:bottom, left:right], None if alpha is None else alpha[top:bottom, left:right]
     return Seen(grays, alpha, x + left, y + top, (left, top))
+
+
+def _seen_of_array(grays: Levels, place: tuple[int, int], window: tuple[int, int, int, int]) -> Seen | None:
+    """As `seen`, of grays as they are, which are dithered so often that the time counts."""
+    height, width = grays.shape
+    x, y = place
+    left, top = max(window[0] - x, 0), max(window[1] - y, 0)
+    right, bottom = min(window[2] - x, width), min(window[3] - y, height)
+    if left >= right or top >= bottom:
+        return None
+    return Seen(grays[top:bottom, left:right], None, x + left, y + top, (left, top))
 
 
 def _size_of(source: Levels | Image.Image) -> tuple[int, int]:

@@ -53,20 +53,27 @@ def ordered(
     exact: cython.int
     found: cython.int
     reach: cython.int
+    kept: cython.int
     above: cython.int
     for y in range(height):
         j = (top + y) % side
         i = left % side
+        if hold == 0:
+            for x in range(width):
+                target[y, x] = (value[source[y, x]] + matrix[j, i]) >> 20
+                i += 1
+                if i == side:
+                    i = 0
+            continue
         for x in range(width):
             exact = value[source[y, x]]
             found = exact + matrix[j, i]
-            if hold > 0:
-                # Less near a level, which is held by itself: white is white.
-                reach = min(hold, exact & (_ONE - 1), _ONE - (exact & (_ONE - 1)))
-                above = found - target[y, x] * _ONE
-                if -reach <= above < _ONE + reach:
-                    found = target[y, x] * _ONE
-            target[y, x] = found >> 20
+            # Less near a level, which is held by itself: white is white.
+            reach = min(hold, exact & (_ONE - 1), _ONE - (exact & (_ONE - 1)))
+            kept = target[y, x] * _ONE
+            # One comparison for both ends: what is below the lower one is a very large number.
+            above = (found - kept + reach) & 0x7FFFFFFF
+            target[y, x] = (kept if above < _ONE + 2 * reach else found) >> 20
             i += 1
             if i == side:
                 i = 0

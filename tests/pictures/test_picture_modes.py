@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import io
+import re
 import struct
 import zlib
+from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
@@ -212,3 +214,16 @@ def test_bombs_are_refused(package, tmp_path, monkeypatch):
     monkeypatch.setattr(Image, "MAX_IMAGE_PIXELS", 100)
     with pytest.raises(Image.DecompressionBombError):
         package.Framebuffer(8, 8).image(tmp_path / "a.png")
+
+
+def test_the_page_on_pictures_runs(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    page = (Path(__file__).parents[2] / "docs" / "pictures.md").read_text(encoding="utf-8")
+    blocks = re.findall(r"^```python\n(.*?)^```$", page, re.M | re.S)
+    assert len(blocks) == 6
+    names = {}
+    for block in blocks:
+        exec(block, names)
+    assert names["bytes_sent"]["stable"] < names["bytes_sent"]["blue-noise"] < names["bytes_sent"]["floyd-steinberg"]
+    assert str(names["fb"].view(20, 40, 5, 5)).split() == ["#...#", ".#.#.", "..#..", ".#.#.", "#...#"]
+    assert set(re.findall(r"`\"([a-z-]+)\"`", page)) >= {"bayer", "blue-noise", "floyd-steinberg", "stable"}
