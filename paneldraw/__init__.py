@@ -12,8 +12,8 @@ if not _compiled.COMPILED:
     _interpreted.load_when_needed()
 
 if TYPE_CHECKING:
-    from paneldraw.framebuffer import Framebuffer
     from paneldraw.animation import Animation
+    from paneldraw.framebuffer import Framebuffer
     from paneldraw.framebuffer.sprites import Sprite
     from paneldraw.panel import Panel, open_panel
     from paneldraw.raster.cone import ConeFilter
