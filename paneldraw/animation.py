@@ -5,6 +5,7 @@ from __future__ import annotations
 import bisect
 import contextlib
 import itertools
+import os
 import struct
 import time
 from collections.abc import Callable, Iterator
@@ -39,6 +40,8 @@ class Animation:
 
     Raises
     ------
+    TypeError
+        If `source` is none of these.
     OSError
         If the file, or later a frame of it, cannot be read. ``PIL.Image.DecompressionBombError`` if it is too large.
 
@@ -64,6 +67,12 @@ class Animation:
     def __init__(self, source: Any) -> None:
         from PIL import Image
 
+        if (
+            not isinstance(source, (str, os.PathLike))
+            and not hasattr(source, "getbands")
+            and not hasattr(source, "read")
+        ):
+            raise TypeError(f"source must be a path, a file or a Pillow image, not {type(source).__name__}")
         self._file: Image.Image = source if hasattr(source, "getbands") else Image.open(source)
         self.size = self._file.size
         told = self._file.info.get("loop")

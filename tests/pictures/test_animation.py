@@ -200,3 +200,9 @@ def test_the_command_says_what_is_wrong(gif, capsys):
     path.write_bytes(path.read_bytes()[:300])
     assert main(["show", str(path), "--panel", "sim://ssd1306?size=128x64"]) == 1
     assert capsys.readouterr().err.startswith(f"paneldraw: cannot read {path}: ")
+
+
+@pytest.mark.parametrize("bad", [None, 5, [], b"GIF89a"])
+def test_other_things_are_no_animations(bad):
+    with pytest.raises(TypeError, match=r"^source must be a path, a file or a Pillow image, not "):
+        Animation(bad)
