@@ -19,6 +19,9 @@ if TYPE_CHECKING:
 #: Seconds that a frame lasts which does not say how long, as in browsers.
 DEFAULT_SECONDS = 0.1
 
+#: Frames that are left out in a row at most, so that something is seen where reading them alone takes too long.
+MOST_SKIPPED = 20
+
 
 class Animation:
     """The frames of an animated picture, composed as Pillow does, and how long each is to be seen.
@@ -159,16 +162,20 @@ def play(
     fb = panel.framebuffer()
     start = clock()
     due, count = 0.0, 0
-    for _ in itertools.repeat(None, times) if times else itertools.count():
-        for image, seconds in animation:
+    frames, skipped = len(animation), 0
+    for turn in range(1, times + 1) if times else itertools.repeat(0):
+        for number, (image, seconds) in enumerate(animation, 1):
             begin, due = due, due + _milliseconds(seconds)
-            if count and 1000 * (clock() - start) >= due:
+            late = 1000 * (clock() - start) >= due
+            if late and count and skipped < MOST_SKIPPED and (turn, number) != (times, frames):
+                skipped += 1
                 continue
+            skipped = 0
             fb.image(image, fill=0, **options)
             sleep(max(begin / 1000 - (clock() - start), 0))
             shown(panel.show(fb))
             count += 1
-        if len(animation) == 1:
+        if frames == 1:
             return count
     sleep(max(due / 1000 - (clock() - start), 0))
     return count

@@ -402,7 +402,7 @@ class Panel:
     ) -> int:
         """Show an animated GIF, APNG or WebP, each frame as long as it says, and return how many frames were shown.
 
-        Frames whose time is over before they can be shown are left out.
+        Frames whose time is over before they can be shown are left out, but for the last one of all.
 
         Parameters
         ----------
@@ -427,8 +427,8 @@ class Panel:
         >>> film = [Image.new("L", (128, 64), gray) for gray in (0, 128, 255)]
         >>> film[0].save("film.gif", save_all=True, append_images=film[1:], duration=20)
         >>> panel = open_panel("sim://ssd1306")
-        >>> panel.play("film.gif")
-        3
+        >>> 1 <= panel.play("film.gif") <= 3
+        True
         """
         from paneldraw.animation import play
 

@@ -103,6 +103,19 @@ def test_frames_whose_time_is_over_are_left_out(gif):
     assert [int(np.argwhere(pixels)[0, 1]) // 10 for pixels in pictures] == [0, 1, 3]
 
 
+def test_the_last_frame_of_all_is_shown_however_late(gif):
+    times, pictures, _ = played(gif(), loops=2, slow=5.0)
+    assert times == [0.0, 5.0]
+    assert (pictures[-1] * 255 == np.asarray(drawn(3))).all()
+
+
+def test_something_is_seen_where_reading_alone_takes_too_long(gif, monkeypatch):
+    monkeypatch.setattr("paneldraw.animation.MOST_SKIPPED", 2)
+    times, pictures, _ = played(gif(), loops=3, slow=100.0)
+    assert [int(np.argwhere(pixels)[0, 1]) // 10 for pixels in pictures] == [0, 3, 2, 1, 3]
+    assert times == [0.0, 100.0, 200.0, 300.0, 400.0]
+
+
 @pytest.mark.parametrize("name", ["film.gif", "film.png", "film.webp"])
 @pytest.mark.parametrize("loop", [0, 3])
 def test_kinds_of_files(gif, name, loop):
