@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import random
-import time
 from itertools import cycle, islice
 
 import canvases
@@ -177,18 +176,6 @@ ROWS = [
         ),
         fastest=1,
     ),
-    *(
-        Row(
-            f"image, {dither}",
-            FEW,
-            f'for one in gray_arrays: image(one, dither="{dither}")',
-            (
-                Against("Pillow", 'for one in gray_images: paste(one.convert("1"))', how="Floyd-Steinberg"),
-                Against("limit", f"for one in gray_arrays: wait({limit}e-6)", 1, how=f"{limit} us"),
-            ),
-        )
-        for dither, limit in (("floyd-steinberg", 100), ("bayer", 20), ("blue-noise", 20), ("stable", 100))
-    ),
     Row(
         "image, Pillow's 1 on 1 bit",
         FEW,
@@ -307,20 +294,9 @@ def pygame() -> Names:
     return names | {"stamp": small, "keyed": keyed, "pictures": [copy(one) for one in shapes()["bool_arrays"]]}
 
 
-def limit() -> Names:
-    """A time that a call is to keep within, as a peer that takes as long."""
-
-    def wait(seconds: float) -> None:
-        end = time.process_time() + seconds
-        while time.process_time() < end:
-            pass
-
-    return {"wait": wait}
-
-
 def contest(rounds: int) -> Contest:
     """Us and the peers."""
-    peers = canvases.PEERS | {"numpy": numpy, "Pillow": pillow, "OpenCV": opencv, "pygame": pygame, "limit": limit}
+    peers = canvases.PEERS | {"numpy": numpy, "Pillow": pillow, "OpenCV": opencv, "pygame": pygame}
     return Contest(ours(), peers, rounds, shapes())
 
 
