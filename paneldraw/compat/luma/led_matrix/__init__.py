@@ -1,0 +1,1 @@
+"""LED matrices and seven-segment displays."""
