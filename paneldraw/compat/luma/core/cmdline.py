@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
 import importlib
 import inspect
 import os
@@ -178,8 +179,6 @@ def create_parser(
         for flag, settings in options:
             group.add_argument(flag, **settings)
     if autocomplete:
-        try:
+        with contextlib.suppress(ImportError):
             importlib.import_module("argcomplete").autocomplete(parser)
-        except ImportError:
-            pass
     return parser
