@@ -1,7 +1,7 @@
 """Run scripts of luma.examples on a simulated panel, with luma and with paneldraw's face of it.
 
-``python luma_scripts.py EXAMPLES/examples`` prints which scripts show the same pixels, and the bytes of each. The scripts
-are others' property and not here: ``git clone https://github.com/rm-hull/luma.examples``.
+``python luma_scripts.py EXAMPLES/examples`` prints which scripts show the same pixels, and the bytes of each. The
+scripts are others' property and not here: ``git clone https://github.com/rm-hull/luma.examples``.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from collections.abc import Callable, Iterator
 from itertools import count
 from pathlib import Path
 from types import ModuleType, SimpleNamespace
-from typing import Any, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
@@ -89,16 +89,21 @@ def run(examples: Path, script: str, face: str, display: str) -> Result:
 
 
 class Time:
-    """A clock that stands still but for pauses and pictures."""
+    """A clock that stands still but for pauses and pictures; a script that pauses for an hour has shown enough."""
 
     def __init__(self) -> None:
         self.now = EPOCH
+        self.events: list[Callable[[], object]] = []
 
     def read(self) -> float:
         return self.now
 
     def sleep(self, seconds: float) -> None:
         self.now += max(0.0, seconds)
+        if self.now > EPOCH + 3600:
+            raise Enough
+        for event in list(self.events):
+            event()
 
     def install(self) -> None:
         import datetime
@@ -144,7 +149,7 @@ def stubs(clock: Time) -> None:
     module("feedparser", parse=lambda url: {"feed": {"title": "Weather"}, "items": [day]})
     module("av", open=lambda path: SimpleNamespace(decode=lambda video: map(Film, range(FRAMES))))
     module("picamera", PiCamera=Camera)
-    module("pusherclient", Pusher=Pusher)
+    module("pusherclient", Pusher=lambda key: Pusher(clock))
     module(
         "tweepy",
         StreamListener=object,
@@ -203,13 +208,28 @@ class Camera:
 
 
 class Pusher:
-    def __init__(self, key: str) -> None:
-        self.connection = SimpleNamespace(bind=lambda event, handler: None)
+    """A connection over which a trade comes with every pause of the script."""
+
+    def __init__(self, clock: Time) -> None:
+        self._clock = clock
+        self.connection = SimpleNamespace(bind=self._bind)
+
+    def _bind(self, event: str, handler: Callable[[str], object]) -> None:
+        self._connected = handler
 
     def connect(self) -> None:
-        pass
+        self._clock.events.append(lambda: self._connected("") or self._clock.events.pop(0))
 
-    disconnect = connect
+    def subscribe(self, channel: str) -> Any:
+        return SimpleNamespace(bind=self._trade)
+
+    def _trade(self, event: str, handler: Callable[[str], object]) -> None:
+        numbers = count(1)
+        trade = lambda: json.dumps({"price_str": f"{2190 + next(numbers)}.00", "amount": 0.25})  # noqa: E731
+        self._clock.events.append(lambda: handler(trade()))
+
+    def disconnect(self) -> None:
+        pass
 
 
 class Tweets:
@@ -227,7 +247,7 @@ class Tweets:
 class Panel:
     """The simulated panel, and what a device displayed on it."""
 
-    frames: list[tuple[int, int]] = []
+    frames: ClassVar[list[tuple[int, int]]] = []
 
     def __init__(self, display: str, clock: Time) -> None:
         from paneldraw import simulator
