@@ -102,8 +102,10 @@ class Time:
         self.now += max(0.0, seconds)
         if self.now > EPOCH + 3600:
             raise Enough
-        for event in list(self.events):
+        events, self.events = self.events, []  # which may pause, too
+        for event in events:
             event()
+        self.events += events
 
     def install(self) -> None:
         import datetime
@@ -215,10 +217,15 @@ class Pusher:
         self.connection = SimpleNamespace(bind=self._bind)
 
     def _bind(self, event: str, handler: Callable[[str], object]) -> None:
-        self._connected = handler
+        self._connected: Callable[[str], object] | None = handler
 
     def connect(self) -> None:
-        self._clock.events.append(lambda: self._connected("") or self._clock.events.pop(0))
+        self._clock.events.append(self._greet)
+
+    def _greet(self) -> None:
+        if self._connected is not None:
+            connected, self._connected = self._connected, None
+            connected("")
 
     def subscribe(self, channel: str) -> Any:
         return SimpleNamespace(bind=self._trade)

@@ -154,10 +154,11 @@ class Drawing:
         Raises
         ------
         OSError, ValueError
-            There is no such file, or it is no font.
+            There is no such file, or it is no font, or `size` is below 1.
         """
         glyphs = _Own() if font_name == FONT and not Path(FONT).exists() else _File(font_name)
-        size = max(size, 1)
+        if size < 1:
+            raise ValueError(f"size must be 1 or more, not {size}")
         for line in string.split("\n"):
             at = x
             for character in line:
