@@ -26,7 +26,7 @@ from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
-FRAMES = 60
+FRAMES = 40
 """Pictures after which a script is ended."""
 DISPLAYS = {
     "ssd1306": ("SSD1306", (128, 64), "i2c", []),
@@ -77,7 +77,8 @@ def moved_folder(examples: Path, folder: Path) -> Path:
 def run(examples: Path, script: str, face: str, display: str) -> Result:
     """Run a script in a process of its own; `face` is the package that has ``core.cmdline``."""
     command = [sys.executable, "-W", "ignore", __file__, "--inside", script, face, display]
-    environment = {**os.environ, "PYTHONHASHSEED": "0"}
+    path = os.pathsep.join(filter(None, sys.path))  # the same paneldraw as here
+    environment = {**os.environ, "PYTHONHASHSEED": "0", "PYTHONPATH": path}
     done = subprocess.run(command, capture_output=True, text=True, timeout=250, cwd=examples, env=environment)
     if done.returncode:
         return Result([], 0, done.stderr.strip().splitlines()[-1] if done.stderr else f"exit {done.returncode}")
@@ -92,15 +93,18 @@ class Time:
     """A clock that stands still but for pauses and pictures; a script that pauses for an hour has shown enough."""
 
     def __init__(self) -> None:
-        self.now = EPOCH
+        self.now = 10**9  # nanoseconds
         self.events: list[Callable[[], object]] = []
 
-    def read(self) -> float:
-        return self.now
+    def seconds(self) -> float:
+        return self.now / 1e9
+
+    def date(self) -> float:
+        return EPOCH + self.seconds()
 
     def sleep(self, seconds: float) -> None:
-        self.now += max(0.0, seconds)
-        if self.now > EPOCH + 3600:
+        self.now += round(max(0.0, seconds) * 1e9)
+        if self.seconds() > 3600:
             raise Enough
         events, self.events = self.events, []  # which may pause, too
         for event in events:
@@ -116,12 +120,12 @@ class Time:
         class Datetime(datetime.datetime):
             @classmethod
             def now(cls, tz: Any = None) -> Any:
-                return cls.fromtimestamp(clock.now, tz)
+                return cls.fromtimestamp(clock.date(), tz)
 
         datetime.datetime = Datetime  # type: ignore[misc]
-        for name in ("time", "monotonic", "perf_counter"):
-            setattr(time, name, self.read)
-        time.perf_counter_ns = lambda: int(self.now * 1e9)
+        time.time = self.date
+        time.monotonic = time.perf_counter = self.seconds
+        time.perf_counter_ns = lambda: self.now
         time.sleep = self.sleep
 
 
@@ -142,9 +146,10 @@ def stubs(clock: Time) -> None:
         disk_usage=lambda path: usage,
         net_io_counters=lambda pernic=False: traffic,
         net_if_addrs=lambda: address,
-        net_if_stats=lambda: {name: SimpleNamespace(isup=True) for name in address},
+        net_if_stats=lambda: {name: SimpleNamespace(isup=True, duplex=2) for name in address},
     )
     os.getloadavg = lambda: (0.5, 0.7, 0.9)
+    subprocess.getoutput = lambda command: "temp=48.3'C"
     price = {"last": "61234.00", "high": "62000.00", "low": "60100.00"}
     module("requests", get=lambda url: SimpleNamespace(json=lambda: price))
     day = {"title": "Monday: Sunny, Maximum 21", "description": "Wind: 5mph, Humidity: 60%"}
@@ -290,6 +295,7 @@ class Panel:
 
         def created(*arguments: Any) -> Any:
             device = create(*arguments)
+            random.seed(1)  # whatever was drawn by what was imported
             show = device.display
 
             def display(image: Any) -> None:

@@ -155,7 +155,7 @@ def create_device(args: Any, display_types: dict[str, list[str]] | None = None) 
     wanted["framebuffer"] = getattr(framebuffer, args.framebuffer)(num_segments=args.num_segments, debug=args.debug)
     wanted["mode"] = args.mode if args.mode in kind.modes else None  # type: ignore[attr-defined]
     if library == "lcd":
-        wanted |= {"gpio_LIGHT": args.gpio_backlight, "active_low": args.backlight_active == "low"}
+        wanted |= {"gpio": None, "gpio_LIGHT": args.gpio_backlight, "active_low": args.backlight_active == "low"}
     return kind(interface, **wanted)
 
 

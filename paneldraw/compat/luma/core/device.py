@@ -22,8 +22,8 @@ _GRAY = np.array([306, 601, 117], np.uint32)
 class device(capabilities):
     """A panel that displays Pillow images.
 
-    Use the class of a chip, such as `paneldraw.compat.luma.oled.device.ssd1306`. The panel is black and lit when it is
-    made, and black and off when the script ends, unless `persist` is set.
+    Use the class of a chip, such as `paneldraw.compat.luma.oled.device.ssd1306`. The panel is dark until the first
+    picture, and black and off when the script ends, unless `persist` is set.
 
     Parameters
     ----------
@@ -73,6 +73,8 @@ class device(capabilities):
     """Modes that can be displayed, the default first."""
     wiring: ClassVar[Mapping[str, Any]] = {}
     """Of what module luma means this chip to be."""
+    contrast_shift: ClassVar[int] = 0
+    """Bits that luma's levels of contrast are short of eight."""
 
     def __init__(
         self,
@@ -98,7 +100,6 @@ class device(capabilities):
         updates = "least" if framebuffer is None else framebuffer.updates
         transport = carrier(i2c() if serial_interface is None else serial_interface, record)
         self.panel = Panel(record, transport, rotate=90 * rotate, updates=updates, on_close="off")
-        self.clear()
 
     @property
     def persist(self) -> bool:
@@ -134,8 +135,8 @@ class device(capabilities):
         self.panel.sleep()
 
     def contrast(self, level: int) -> None:
-        """Set the brightness of lit pixels, 0 to 255."""
-        self.panel.contrast(level)
+        """Set the brightness of lit pixels, 0 to 255; LCDs and the SSD1325 are at their highest long before."""
+        self.panel.contrast(min(level << self.contrast_shift, 255) if level <= 255 else level)
 
     def command(self, *cmd: int) -> None:
         """Send a command with its arguments, as the datasheet has them."""

@@ -89,6 +89,7 @@ class pcd8544(backlit_device):
 
     chip = controllers.PCD8544
     glass = (84, 48)
+    contrast_shift = 1
 
 
 class st7567(backlit_device):
@@ -96,6 +97,7 @@ class st7567(backlit_device):
 
     chip = controllers.ST7567
     glass = (128, 64)
+    contrast_shift = 2
 
 
 class uc1701x(backlit_device):

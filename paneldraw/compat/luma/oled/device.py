@@ -116,6 +116,7 @@ class ssd1325(_gray):
 
     chip = controllers.SSD1325
     glass = (128, 64)
+    contrast_shift = 1
 
 
 class ssd1327(_gray):
