@@ -91,7 +91,7 @@ class Drawing:
             inside[[0, -1]] = inside[:, [0, -1]] = bool(color)
 
     def line(self, x_0: int, y_0: int, x_1: int, y_1: int, color: int) -> None:
-        """Draw a line by Bresenham's algorithm; of two equally near pixels it takes the later one's."""
+        """Draw a line by Bresenham's algorithm; of two equally near pixels it takes that of its start's side."""
         ends = [(operator.index(x_0), operator.index(x_1)), (operator.index(y_0), operator.index(y_1))]
         steep = abs(x_1 - x_0) <= abs(y_1 - y_0)
         (start, stop), (other, goal) = reversed(ends) if steep else ends
