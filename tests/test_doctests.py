@@ -12,9 +12,15 @@ import re
 import pytest
 
 import paneldraw
+from paneldraw.compat.luma.oled import device as compat_oled
 
 #: Public objects that may do without an example.
 WITHOUT_EXAMPLE = {
+    "paneldraw.compat.adafruit.SH1106_SPI",  # as SSD1306_I2C, on pins that only Blinka has
+    "paneldraw.compat.adafruit.SSD1306_SPI",
+    "paneldraw.compat.luma.core",  # a module
+    *(f"paneldraw.compat.luma.lcd.device.{chip}" for chip in ("backlit_device", "st7567", "uc1701x")),  # as pcd8544
+    *(f"paneldraw.compat.luma.oled.device.{chip}" for chip in compat_oled.__all__ if chip != "ssd1306"),  # as that one
     "paneldraw.controllers.BUSES",
     "paneldraw.controllers.CHIPS",
     "paneldraw.controllers.Controller",

@@ -91,6 +91,18 @@ class _I2C(_Display):
     ------
     PanelError
         The display cannot be reached; the message says what to do.
+
+    Examples
+    --------
+    >>> from paneldraw import simulator
+    >>> from paneldraw.compat.adafruit import SSD1306_I2C
+    >>> chip = simulator.SSD1306(128, 64)
+    >>> display = SSD1306_I2C(128, 64, simulator.I2CBus({0x3C: chip}))
+    >>> display.fill_rect(10, 10, 20, 5, 1)
+    >>> display.show().wire_bytes
+    26
+    >>> int(chip.pixels.sum())
+    100
     """
 
     def __init__(

@@ -10,7 +10,13 @@ __all__ = ["diff_to_previous", "full_frame"]
 
 
 class diff_to_previous:
-    """Send what differs, in the fewest bytes."""
+    """Send what differs, in the fewest bytes.
+
+    Examples
+    --------
+    >>> diff_to_previous().updates
+    'least'
+    """
 
     updates: Updates = "least"
 
@@ -19,7 +25,13 @@ class diff_to_previous:
 
 
 class full_frame:
-    """Send every picture that differs as a whole."""
+    """Send every picture that differs as a whole.
+
+    Examples
+    --------
+    >>> full_frame().updates
+    'whole'
+    """
 
     updates: Updates = "whole"
 

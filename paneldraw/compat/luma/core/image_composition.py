@@ -21,6 +21,14 @@ class ComposableImage:
         Where it stands. Default: (0, 0).
     offset : (int, int), optional
         The pixel of the image that is there. Default: (0, 0).
+
+    Examples
+    --------
+    >>> from PIL import Image
+    >>> image = ComposableImage(Image.new("1", (40, 10)), position=(0, 20))
+    >>> image.offset = (8, 0)
+    >>> image.width
+    40
     """
 
     def __init__(self, image: Image.Image, position: Point = (0, 0), offset: Point = (0, 0)) -> None:
@@ -44,7 +52,20 @@ class ComposableImage:
 
 
 class ImageComposition:
-    """Images on a black picture of a device's size and mode."""
+    """Images on a black picture of a device's size and mode.
+
+    Examples
+    --------
+    >>> from paneldraw.compat.luma.core.device import dummy
+    >>> from PIL import Image
+    >>> device = dummy(mode="1")
+    >>> composition = ImageComposition(device)
+    >>> composition.add_image(ComposableImage(Image.new("1", (40, 10), 1), position=(0, 20)))
+    >>> composition.refresh()
+    >>> device.display(composition())
+    >>> device.image.getbbox()
+    (0, 20, 40, 30)
+    """
 
     def __init__(self, device: capabilities) -> None:
         self._device = device

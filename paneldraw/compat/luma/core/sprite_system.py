@@ -25,6 +25,16 @@ class spritesheet:
     animations : mapping of str to mapping
         Of each sequence ``frames``, numbers of pictures and names of other sequences; ``speed``, of how many a step
         (default 1); ``next``, the sequence that follows (default: it ends).
+
+    Examples
+    --------
+    >>> Image.new("1", (64, 16)).save("walk.png")
+    >>> walk = {"frames": [0, 1, 2, 1], "next": "walk"}
+    >>> sprites = spritesheet("walk.png", {"width": 16, "height": 16}, {"walk": walk})
+    >>> len(sprites)
+    4
+    >>> next(sprites.animate("walk")).size
+    (16, 16)
     """
 
     def __init__(
@@ -88,6 +98,15 @@ class framerate_regulator:
         How many frames there were.
     total_transit_time : float
         Seconds that the blocks took.
+
+    Examples
+    --------
+    >>> regulator = framerate_regulator(fps=100)
+    >>> for _ in range(3):
+    ...     with regulator:
+    ...         pass  # draw
+    >>> regulator.called
+    3
     """
 
     def __init__(self, fps: float = 16.67) -> None:

@@ -19,12 +19,24 @@ Point = tuple[int, int]
 
 
 def calc_bounds(xy: Point, entity: Any) -> tuple[int, int, int, int]:
-    """Return left, top, right and bottom of something of a width and height at a place."""
+    """Return left, top, right and bottom of something of a width and height at a place.
+
+    Examples
+    --------
+    >>> calc_bounds((10, 4), hotspot(20, 8))
+    (10, 4, 30, 12)
+    """
     return xy[0], xy[1], xy[0] + entity.width, xy[1] + entity.height
 
 
 def range_overlap(a_min: int, a_max: int, b_min: int, b_max: int) -> bool:
-    """Whether two ranges, each without its end, have something in common."""
+    """Whether two ranges, each without its end, have something in common.
+
+    Examples
+    --------
+    >>> range_overlap(0, 8, 7, 10), range_overlap(0, 8, 8, 10)
+    (True, False)
+    """
     return a_min < b_max and b_min < a_max
 
 
@@ -40,6 +52,17 @@ class viewport(capabilities):
         Pillow's mode of the picture. Default: the device's.
     dither : bool, optional
         Let error diffusion make what the window shows the device's mode. Default: False.
+
+    Examples
+    --------
+    >>> from paneldraw.compat.luma.core.device import dummy
+    >>> device = dummy(64, 32, mode="1")
+    >>> strip = viewport(device, 200, 32)
+    >>> with canvas(strip) as draw:
+    ...     draw.rectangle((100, 8, 109, 15), fill="white")
+    >>> strip.set_position((90, 0))
+    >>> device.image.getbbox()
+    (10, 8, 20, 16)
     """
 
     def __init__(
@@ -111,6 +134,17 @@ class hotspot(capabilities):
     width, height : int
     draw_fn : callable, optional
         Called with an ImageDraw, the width and the height. Default: a subclass has `update` instead.
+
+    Examples
+    --------
+    >>> from paneldraw.compat.luma.core.device import dummy
+    >>> device = dummy(64, 32, mode="1")
+    >>> view = viewport(device, 200, 32)
+    >>> spot = hotspot(10, 10, lambda draw, width, height: draw.rectangle((0, 0, 4, 4), fill="white"))
+    >>> view.add_hotspot(spot, (20, 8))
+    >>> view.refresh()
+    >>> device.image.getbbox()
+    (20, 8, 25, 13)
     """
 
     def __init__(self, width: int, height: int, draw_fn: Callable[[Any, int, int], object] | None = None) -> None:
@@ -134,7 +168,15 @@ class hotspot(capabilities):
 
 
 class snapshot(hotspot):
-    """A hotspot that draws itself only every `interval` seconds."""
+    """A hotspot that draws itself only every `interval` seconds.
+
+    Examples
+    --------
+    >>> spot = snapshot(40, 10, lambda draw, width, height: draw.text((0, 0), "now"), interval=60.0)
+    >>> spot.paste_into(Image.new("1", (64, 32)), (0, 0))
+    >>> spot.should_redraw()
+    False
+    """
 
     def __init__(
         self,
@@ -181,6 +223,13 @@ class terminal:
         Show each character as it comes, as a teletype does. Default: True.
     word_wrap : bool, optional
         Break lines of `println` between words. Default: False.
+
+    Examples
+    --------
+    >>> from paneldraw.compat.luma.core.device import dummy
+    >>> term = terminal(dummy(mode="1"), animate=False)
+    >>> term.println("Hello")
+    >>> term.puts("\\033[7mreversed\\033[0m")
     """
 
     def __init__(
@@ -318,7 +367,19 @@ class terminal:
 
 
 class history(capabilities):
-    """A device that can go back to what it showed before."""
+    """A device that can go back to what it showed before.
+
+    Examples
+    --------
+    >>> from paneldraw.compat.luma.core.device import dummy
+    >>> screen = history(dummy(mode="1"))
+    >>> screen.clear()
+    >>> screen.savepoint()
+    >>> screen.display(Image.new("1", (128, 64), 1))
+    >>> screen.restore()
+    >>> len(screen)
+    0
+    """
 
     def __init__(self, device: capabilities) -> None:
         self.capabilities(device.width, device.height, 0, device.mode)
@@ -361,6 +422,16 @@ class sevensegment:
         What is shown for a character that seven segments cannot. Default: ``"_"``.
     segment_mapper : callable, optional
         Makes bytes of a text. Default: the device's.
+
+    Examples
+    --------
+    >>> from paneldraw.compat.luma.core.device import dummy
+    >>> from paneldraw.compat.luma.led_matrix.segment_mapper import dot_muncher
+    >>> digits = sevensegment(dummy(8, 8, mode="1"), segment_mapper=dot_muncher)
+    >>> digits.text = "21.5"
+    >>> digits.text[0] = "3"
+    >>> digits.text
+    31.5
     """
 
     def __init__(

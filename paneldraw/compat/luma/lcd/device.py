@@ -85,7 +85,16 @@ class _Light:
 
 
 class pcd8544(backlit_device):
-    """PCD8544 of 84x48 pixels, the Nokia 5110's."""
+    """PCD8544 of 84x48 pixels, the Nokia 5110's.
+
+    Examples
+    --------
+    >>> from paneldraw import simulator
+    >>> from paneldraw.compat.luma.core.interface.serial import spi
+    >>> bus = simulator.SPIBus(simulator.PCD8544())
+    >>> pcd8544(spi(spi=bus.spi, gpio=bus.gpio)).size
+    (84, 48)
+    """
 
     chip = controllers.PCD8544
     glass = (84, 48)

@@ -34,6 +34,14 @@ class max7219(device):
         Whether the data comes in on the right. Default: False.
     contrast : int, optional
         Brightness to begin with. Default: 0x70.
+
+    Examples
+    --------
+    >>> from paneldraw import simulator
+    >>> from paneldraw.compat.luma.core.interface.serial import noop, spi
+    >>> bus = simulator.SPIBus(simulator.MAX7219(32, 8), dc=None, reset=None)
+    >>> max7219(spi(spi=bus.spi, gpio=noop()), cascaded=4).size
+    (32, 8)
     """
 
     chip = controllers.MAX7219

@@ -16,7 +16,17 @@ __all__ = [
 
 
 class ssd1306(device):
-    """SSD1306 of 128x64, 128x32, 96x16, 64x48, 64x32 pixels and the other sizes of `paneldraw.controllers`."""
+    """SSD1306 of 128x64, 128x32, 96x16, 64x48, 64x32 pixels and the other sizes of `paneldraw.controllers`.
+
+    Examples
+    --------
+    >>> from paneldraw import simulator
+    >>> from paneldraw.compat.luma.core.interface.serial import i2c
+    >>> bus = simulator.I2CBus({0x3C: simulator.SSD1306(64, 48)})
+    >>> device = ssd1306(i2c(bus=bus), width=64, height=48, rotate=1)
+    >>> device.size, device.mode
+    ((48, 64), '1')
+    """
 
     chip = controllers.SSD1306
     glass = (128, 64)

@@ -46,6 +46,14 @@ class i2c:
         `address` is none.
     DeviceNotFoundError, DevicePermissionError
         The bus cannot be opened.
+
+    Examples
+    --------
+    >>> from paneldraw import simulator
+    >>> from paneldraw.compat.luma.oled.device import ssd1306
+    >>> serial = i2c(bus=simulator.I2CBus({0x3D: simulator.SSD1306(128, 64)}), address=0x3D)
+    >>> ssd1306(serial).size
+    (128, 64)
     """
 
     def __init__(self, bus: Any = None, port: int = 1, address: int | str = 0x3C) -> None:
@@ -100,6 +108,14 @@ class spi:
     ------
     ValueError
         Another `spi_mode`.
+
+    Examples
+    --------
+    >>> from paneldraw import simulator
+    >>> from paneldraw.compat.luma.oled.device import ssd1322
+    >>> bus = simulator.SPIBus(simulator.SSD1322(256, 64))
+    >>> ssd1322(spi(spi=bus.spi, gpio=bus.gpio)).size
+    (256, 64)
     """
 
     def __init__(
@@ -149,7 +165,16 @@ class spi:
 
 
 class noop:
-    """Lines, or an interface, that do nothing."""
+    """Lines, or an interface, that do nothing.
+
+    Examples
+    --------
+    >>> from paneldraw import simulator
+    >>> from paneldraw.compat.luma.led_matrix.device import max7219
+    >>> bus = simulator.SPIBus(simulator.MAX7219(8, 8), dc=None, reset=None)
+    >>> max7219(spi(spi=bus.spi, gpio=noop())).size
+    (8, 8)
+    """
 
     def setup(self, *args: Any, **kwargs: Any) -> None:
         """Do nothing."""

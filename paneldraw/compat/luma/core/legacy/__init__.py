@@ -24,14 +24,33 @@ def _columns(txt: str, font: Columns | None) -> Iterator[int]:
 
 
 def textsize(txt: str, font: Columns | None = None) -> tuple[int, int]:
-    """Return the width and height of a text."""
+    """Return the width and height of a text.
+
+    Examples
+    --------
+    >>> font = [[0xFF, 0x81, 0]] * 128
+    >>> textsize("abc", font)
+    (9, 8)
+    """
     return len(list(_columns(txt, font))), 8
 
 
 def text(
     draw: ImageDraw.ImageDraw, xy: tuple[int, int], txt: str, fill: Any = None, font: Columns | None = None
 ) -> None:
-    """Draw a text, with its upper left corner at a place."""
+    """Draw a text, with its upper left corner at a place.
+
+    Examples
+    --------
+    >>> from paneldraw.compat.luma.core.device import dummy
+    >>> from paneldraw.compat.luma.core.render import canvas
+    >>> font = [[0xFF, 0x81, 0]] * 128
+    >>> device = dummy(32, 8, mode="1")
+    >>> with canvas(device) as draw:
+    ...     text(draw, (1, 0), "ab", fill="white", font=font)
+    >>> device.image.getbbox()
+    (1, 0, 6, 8)
+    """
     x, y = xy
     lit = [
         (x + column, y + row)
@@ -50,7 +69,13 @@ def show_message(
     font: Columns | None = None,
     scroll_delay: float = 0.03,
 ) -> None:
-    """Let a message run through a device from right to left, a pixel every `scroll_delay` seconds."""
+    """Let a message run through a device from right to left, a pixel every `scroll_delay` seconds.
+
+    Examples
+    --------
+    >>> from paneldraw.compat.luma.core.device import dummy
+    >>> show_message(dummy(32, 8), "Hello", fill="white", scroll_delay=0)
+    """
     beat = framerate_regulator(1 / scroll_delay if scroll_delay else 0)
     width = textsize(msg, font)[0] + device.width
     device.clear()

@@ -26,7 +26,14 @@ class Columns(Protocol):
 
 
 class proportional:
-    """A font whose characters are as wide as what is drawn of them, and a column of space."""
+    """A font whose characters are as wide as what is drawn of them, and a column of space.
+
+    Examples
+    --------
+    >>> font = [[0x00, 0x7F, 0x00]] * 128
+    >>> proportional(font)[ord("l")]
+    [127, 0]
+    """
 
     def __init__(self, font: Columns) -> None:
         self.font = font
@@ -43,7 +50,14 @@ class proportional:
 
 
 class tolerant:
-    """A font that has another character, `missing`, for those that it has not."""
+    """A font that has another character, `missing`, for those that it has not.
+
+    Examples
+    --------
+    >>> font = [[0x00]] * 128
+    >>> tolerant(font, missing="?")[0x20AC]
+    [0]
+    """
 
     def __init__(self, font: Columns, missing: str = "_") -> None:
         self.font, self.missing_code = font, ord(missing)
@@ -78,7 +92,13 @@ def _named(name: str) -> Columns:
 
 
 def default_font() -> Columns:
-    """Return the font that is meant where none is named."""
+    """Return the font that is meant where none is named.
+
+    Examples
+    --------
+    >>> len(list(default_font()[ord("A")])) in (6, 8)
+    True
+    """
     return _named("DEFAULT_FONT")
 
 
