@@ -11,31 +11,11 @@ from typing import Any
 import numpy as np
 import pytest
 import smbus2
+from blinka import Busio
 
 from paneldraw import simulator
 
 DOCS = Path(__file__).parents[2] / "docs"
-
-
-class Busio:
-    """``busio.I2C`` on a simulated bus."""
-
-    def __init__(self, bus: simulator.I2CBus) -> None:
-        self._bus = bus
-
-    def try_lock(self) -> bool:
-        return True
-
-    def unlock(self) -> None:
-        pass
-
-    def writeto(self, address: int, buffer: Any, *, start: int = 0, end: int | None = None) -> None:
-        self._bus.i2c_rdwr(smbus2.i2c_msg.write(address, bytes(buffer[start:end])))
-
-    def readfrom_into(self, address: int, buffer: Any) -> None:
-        answer = smbus2.i2c_msg.read(address, len(buffer))
-        self._bus.i2c_rdwr(answer)
-        buffer[:] = bytes(answer)
 
 
 def shown(script: str, monkeypatch: pytest.MonkeyPatch) -> tuple[Any, int]:
