@@ -125,7 +125,7 @@ def _letters() -> bytes:
     if _own_letters is None:
         from paneldraw.text import Font
 
-        drawn = Font.builtin()
+        drawn = Font.builtin("8x8")
         left = (8 - drawn.advance) // 2
         cells = np.zeros((96, 8, 8), np.bool_)
         for k in range(96):
