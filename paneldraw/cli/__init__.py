@@ -146,18 +146,23 @@ if TYPE_CHECKING:
 
 
 def _command(
-    commands: _Commands, name: str, run: Callable[[argparse.Namespace], int], help: str, epilog: str | None = None
+    commands: _Commands,
+    name: str,
+    run: Callable[[argparse.Namespace], int],
+    help: str,
+    epilog: str | None = None,
+    chip: str = "SSD1306",
 ) -> argparse.ArgumentParser:
-    """Add a command; every one takes ``--panel``."""
+    """Add a command; every one takes ``--panel``, and without it simulates a chip."""
     parser = commands.add_parser(
         name, help=help, description=help, epilog=epilog, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     parser.add_argument(
         "--panel",
         metavar="URL",
-        help="such as i2c://1/0x3c?size=128x32 or sim://ssd1306; default: $PANELDRAW_PANEL, else a simulated SSD1306",
+        help=f"such as i2c://1/0x3c?size=128x32 or sim://ssd1306; default: $PANELDRAW_PANEL, else a simulated {chip}",
     )
-    parser.set_defaults(run=run)
+    parser.set_defaults(run=run, otherwise=f"sim://{chip.lower()}")
     return parser
 
 
@@ -179,8 +184,9 @@ def _positive(kind: Callable[[str], float], most: float = math.inf) -> Callable[
 def _add_demo(commands: _Commands) -> None:
     from paneldraw.demos import DEMOS
 
-    about = "\n".join(f"  {name:6} {what}" for name, what in DEMOS.items())
-    parser = _command(commands, "demo", _demo, "run an animated demo", f"demos:\n{about}")
+    about = "\n".join(f"  {name:8} {what}" for name, what in DEMOS.items())
+    # Of 16 grays and the usual size: anti-aliasing looks as it should.
+    parser = _command(commands, "demo", _demo, "run an animated demo", f"demos:\n{about}", chip="SSD1325")
     parser.add_argument("name", nargs="?", default="scene", choices=list(DEMOS), metavar="NAME", help="default: scene")
     parser.add_argument(
         "--save", type=_save_path, metavar="FILE", help="write a .gif or .apng, or a .png of one moment"
@@ -364,7 +370,7 @@ def _wrap(text: str, font: Font, width: int) -> str:
 def _opened(options: argparse.Namespace) -> Panel:
     from paneldraw.panel import open_panel
 
-    return open_panel(options.panel or os.environ.get("PANELDRAW_PANEL") or "sim://ssd1306")
+    return open_panel(options.panel or os.environ.get("PANELDRAW_PANEL") or options.otherwise)
 
 
 def _present(panel: Panel, fb: Framebuffer, what: str) -> None:

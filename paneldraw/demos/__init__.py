@@ -25,6 +25,13 @@ DEMOS = {
     "lines": "aliased and anti-aliased lines side by side, under a magnifying glass",
     "cube": "a turning cube whose far edges are dotted",
     "clock": "the time, with hands and in figures",
+    "system": "a system monitor: bars, and a chart of the last minute",
+    "menu": "a menu that somebody walks through",
+    "weather": "three pages: now, the hours, the week",
+    "spectrum": "a spectrum analyzer with falling caps",
+    "life": "Conway's Game of Life",
+    "pong": "two players and a ball",
+    "video": "a video player",
 }
 """Names of the demos, and what they show."""
 
