@@ -1,7 +1,8 @@
-"""The pictures of gallery.md, drawn by the code that the page shows beside them.
+"""The pictures of gallery.md and widgets.md, drawn by the code that the pages show beside them.
 
-The page is the only place where that code stands. A row of a table is a picture: ``| ![caption](pictures/NAME.png) |
-`code`<br>`more code` |``. The Python block above the table runs before each of its rows.
+The pages are the only place where that code stands. A row of a table is a picture: ``| ![caption](pictures/NAME.png) |
+`code`<br>`more code` |``. The Python block above the table runs before each of its rows. On widgets.md code may depend
+on `t`, the seconds since it began, and a third column says what a frame costs on the wire.
 """
 
 from __future__ import annotations
@@ -16,10 +17,13 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
-from paneldraw import Framebuffer, simulator
+from paneldraw import Framebuffer, open_panel, simulator
 
-PAGE = Path(__file__).with_name("gallery.md")
-SCALE = 5
+PAGES = tuple(Path(__file__).with_name(name) for name in ("gallery.md", "widgets.md"))
+MOMENT = 3.0
+"""The `t` of the pictures."""
+RATE = 30
+"""Frames a second, of those whose bytes are counted."""
 
 _PART = re.compile(
     r"^```python\n(?P<setup>(?s:.*?))^```$|^\| !\[(?P<caption>.*?)\]\((?P<name>.*?)\) \|(?P<row>.*)\|$", re.M
@@ -27,13 +31,39 @@ _PART = re.compile(
 
 
 def entries() -> Iterator[tuple[str, str, str]]:
-    """Yield the file name, the caption and the code of every picture on the page."""
+    """Yield the file name, the caption and the code of every picture on the pages."""
+    for page in PAGES:
+        for part, code in _rows(page.read_text(encoding="utf-8")):
+            yield part["name"], part["caption"], code
+
+
+def _rows(page: str) -> Iterator[tuple[re.Match[str], str]]:
+    """Yield each row that is a picture, and all the code that draws it."""
     setup = ""
-    for part in _PART.finditer(PAGE.read_text(encoding="utf-8")):
+    for part in _PART.finditer(page):
         if part["name"] is None:
             setup = part["setup"]
         else:
-            yield part["name"], part["caption"], setup + "\n".join(re.findall(r"`(.*?)`", part["row"])) + "\n"
+            yield part, setup + "\n".join(re.findall(r"`(.*?)`", part["row"])) + "\n"
+
+
+def counted(page: str) -> str:
+    """Return a page with the bytes that a frame costs, where a row has a third column."""
+    for part, code in _rows(page):
+        if part["row"].count(" |"):
+            row = f"{part['row'].rpartition(' |')[0]} | {wire_bytes(code)} "
+            page = page.replace(part["row"], row)
+    return page
+
+
+def wire_bytes(code: str) -> int:
+    """How many bytes a frame costs on the wire, on average over a second, on a panel as deep as the framebuffer."""
+    fb = run(code)
+    chip = "ssd1306" if fb.depth == 1 else "ssd1325"
+    with open_panel(f"sim://{chip}?size={fb.width}x{fb.height}") as panel:
+        panel.show(fb)
+        sent = [panel.show(run(code, MOMENT + frame / RATE)).wire_bytes for frame in range(1, RATE + 1)]
+    return round(sum(sent) / len(sent))
 
 
 def pictures() -> dict[str, Callable[[], Image.Image]]:
@@ -41,9 +71,9 @@ def pictures() -> dict[str, Callable[[], Image.Image]]:
     return {name: partial(draw, code, caption) for name, caption, code in entries()}
 
 
-def run(code: str) -> Any:
+def run(code: str, t: float = MOMENT) -> Any:
     """Return the framebuffer `fb` that the code leaves behind."""
-    names: dict[str, Any] = {}
+    names: dict[str, Any] = {"t": t}
     exec(code, names)
     return names["fb"]
 
@@ -51,7 +81,7 @@ def run(code: str) -> Any:
 def draw(code: str, caption: str) -> Image.Image:
     """Run an entry's code and show its framebuffer as a panel, with the caption below."""
     fb = run(code)
-    panel = simulator.image(_shades(fb), scale=SCALE, max_level=255)
+    panel = simulator.image(_shades(fb), scale=5 if fb.width <= 72 else 3, max_level=255)
     if 12 * len(caption) > panel.width:
         raise ValueError(f"the caption {caption!r} is wider than its picture")
     strip = Framebuffer(panel.width // 2 - 2, 8, depth=8)

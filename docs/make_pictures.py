@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import Any
 
 import chip_tables
+import examples
 import figures
 import gallery
 import numpy as np
@@ -88,6 +89,7 @@ PICTURES: dict[str, Callable[[], Image.Image]] = {
     "hello.png": hello,
     "looks.png": looks,
     **gallery.pictures(),
+    **examples.pictures(),
     **figures.pictures(),
     **symptoms.pictures(),
     **specimens.pictures(),
@@ -99,6 +101,7 @@ PAGES: dict[str, Mapping[str, Any]] = {
     "chips.md": vars(chip_tables),
     "add_a_chip.md": {},
     "watching.md": vars(screens),
+    "examples.md": vars(examples),
 }
 
 
@@ -109,6 +112,8 @@ def main() -> None:
     for name, tables in PAGES.items():
         page = HERE / name
         page.write_text(worked_examples.page(page.read_text(encoding="utf-8"), tables), encoding="utf-8")
+    for page in gallery.PAGES:
+        page.write_text(gallery.counted(page.read_text(encoding="utf-8")), encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -12,6 +12,7 @@ import sys
 from collections import Counter
 from pathlib import Path
 
+import examples as demo_page
 import figures
 import gallery
 import make_pictures
@@ -24,9 +25,10 @@ import symptoms
 import worked_examples as examples
 from PIL import Image
 
-from paneldraw import ConeFilter, Framebuffer, Supersample, simulator, urls
+from paneldraw import ConeFilter, Framebuffer, Supersample, simulator, urls, widgets
 from paneldraw.cli import check, main
 from paneldraw.controllers import CHIPS
+from paneldraw.demos import DEMOS
 from paneldraw.raster.stroke import CAPS, JOINS
 from paneldraw.raster.surface import OPS
 from paneldraw.simulator import LOOKS
@@ -86,6 +88,52 @@ def test_every_option_is_in_the_gallery(word):
 @pytest.mark.parametrize("call", ["arc", "circle", "line", "poly", "polyline", "rect"])
 def test_a_dash_of_every_call_that_takes_one_is_in_the_gallery(call):
     assert re.search(rf"\bfb\.{call}\(.*dash=", CODE)
+
+
+@pytest.mark.parametrize("name", sorted(name for name in widgets.__all__ if name[0].isupper() and name != "Widget"))
+def test_every_widget_is_in_the_gallery(name):
+    assert re.search(rf"\b{name}\([^\n]*\.draw\(fb", CODE)
+
+
+@pytest.mark.parametrize("page", gallery.PAGES)
+def test_the_bytes_of_a_frame_are_what_the_code_costs(page):
+    text = page.read_text(encoding="utf-8")
+    assert gallery.counted(text) == text, "run docs/make_pictures.py"
+
+
+def test_the_blocks_of_the_page_on_widgets_run(monkeypatch):
+    monkeypatch.delenv("PANELDRAW_PANEL", raising=False)
+    blocks = re.findall(r"^```python\n(.*?)^```$", gallery.PAGES[1].read_text(encoding="utf-8"), re.M | re.S)
+    for block in (blocks[0], blocks[-1]):
+        names = {}
+        exec(block, names)
+        assert names["fb"].pixels.any()
+
+
+# -- The demos
+
+
+@pytest.mark.parametrize(("name", "draw"), demo_page.pictures().items())
+def test_the_picture_of_a_demo_is_what_it_draws(name, draw):
+    with Image.open(DOCS / name) as file:
+        shown = np.asarray(file.convert("RGB"))
+    assert np.array_equal(np.asarray(draw().convert("RGB")), shown), "run docs/make_pictures.py"
+
+
+def test_each_demo_is_shown_once_with_its_code_and_there_are_no_other_pictures():
+    page = (DOCS / "examples.md").read_text(encoding="utf-8")
+    assert sorted(re.findall(r"\]\((demos/.*?)\)", page)) == sorted(demo_page.pictures())
+    assert sorted(demo_page.pictures()) == sorted(f"demos/{file.name}" for file in (DOCS / "demos").iterdir())
+    assert re.findall(r"\]\(\.\./paneldraw/demos/(\w+)\.py\)", page) == list(DEMOS)
+
+
+def test_the_script_of_the_page_of_examples_runs(monkeypatch):
+    monkeypatch.delenv("PANELDRAW_PANEL", raising=False)
+    (script,) = re.findall(r"^```python\n(.*?)^```$", (DOCS / "examples.md").read_text(encoding="utf-8"), re.M | re.S)
+    scope = {}
+    exec(script.replace("panel.frames(fps=30)", "range(3)"), scope)
+    assert scope["panel"].stats.frames == 3
+    assert scope["fb"].pixels.any()
 
 
 @pytest.mark.parametrize("page", sorted(page.name for page in DOCS.glob("*.md")))

@@ -164,15 +164,16 @@ class Gauge(Widget):
                 return
 
     def _write(self, fb: Framebuffer, x: float, y: float, radius: int, c: int) -> None:
-        """Write the value as large as it fits into the dial, and the unit below it."""
+        """Write the value as large as it fits into the dial, and below it the unit, if there is room for that."""
+        small = self._font
         text = format(self.value, self.form)
-        font = largest(text, 2 * radius - max(radius // 3, 4), radius, self._font)
-        if width_of(text, self._font) > 2 * radius - 2 or radius < self._font.height - 1:
+        if width_of(text, small) > 2 * radius - 2 or radius < small.height - 1:
             return
+        room = 2 * (fb.height - 1 - y - small.baseline - 2)
+        unit = fitted(self.unit, 2 * radius - 2, small) if room >= small.height else ""
+        font = largest(text, 2 * radius - max(radius // 3, 4), min(radius, int(room)) if unit else radius, small)
         fb.text(text, x, y, c, font=font, anchor="mm")
-        below = y + font.height // 2 + 2
-        if self.unit and below + self._font.baseline < fb.height:
-            fb.text(fitted(self.unit, 2 * radius - 2, self._font), x, below, c, font=self._font, anchor="mt")
+        fb.text(unit, x, y + font.height // 2 + 2, c, font=small, anchor="mt")
 
 
 @dataclass(frozen=True, slots=True, eq=False)

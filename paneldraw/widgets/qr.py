@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -51,8 +51,6 @@ class QRCode(Widget):
     error: str = "L"
     border: int = 1
 
-    _stretches: ClassVar = (True, True)
-
     @property
     def size(self) -> tuple[int, int]:
         side = len(_modules(self.text, self.error)) + 2 * max(self.border, 0)
@@ -76,7 +74,7 @@ class QRCode(Widget):
 def _modules(text: str, error: str) -> NDArray[np.uint8]:
     """The code's modules, 1 where it is dark."""
     try:
-        segno: Any = __import__("segno")
+        import segno
     except ImportError:
         raise ImportError('QR codes need the package segno: pip install "paneldraw[qr]"') from None
     code = segno.make(text, error=error, micro=False)

@@ -61,7 +61,7 @@ def nice(number: float) -> float:
 
 
 def label(value: float, step: float) -> str:
-    """Return a tick's number, as short as the distance to the next one lets it be.
+    """Return a tick's number, as short as the distance to the next one, 0 if there is none, lets it be.
 
     Examples
     --------
@@ -74,5 +74,7 @@ def label(value: float, step: float) -> str:
     for factor, prefix in _PREFIXES:
         if abs(value) >= 10 * factor or abs(step) >= factor:
             return label(value / factor, step / factor) + prefix if value else "0"
-    digits = max(-math.floor(math.log10(step) + 1e-9), 0) if step > 0 else 2
+    if not step:
+        return f"{value:.4g}"
+    digits = max(-math.floor(math.log10(abs(step)) + 1e-9), 0)
     return f"{value:.{min(digits, 6)}f}"

@@ -29,6 +29,17 @@ class Widget:
         The level that it draws with; default: the highest.
     font : Font, optional
         Default: the built-in one.
+
+    Examples
+    --------
+    >>> from paneldraw import Framebuffer
+    >>> from paneldraw.widgets import Signal, Widget
+    >>> signal = Signal(0.5)
+    >>> isinstance(signal, Widget), signal.size
+    (True, (11, 8))
+    >>> fb = Framebuffer(128, 64)
+    >>> signal.draw(fb, 117, 0)
+    >>> signal.draw(fb, 0, 20, 60, 40)
     """
 
     c: int | None = None

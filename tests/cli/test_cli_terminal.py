@@ -105,7 +105,7 @@ def test_a_demo_plays_in_a_terminal(terminal):
 
 
 def test_a_demo_fits_a_usual_terminal(terminal):
-    window = terminal("demo", "--frames", 3, columns=80, rows=24)
+    window = terminal("demo", "--frames", 3, "--panel", "sim://ssd1306", columns=80, rows=24)
     output = window.read()
     lines = seen(window, 80, 24)
     assert [line[:1] for line in lines[-20:]] == ["┌", *"│" * 16, "└", "s", ""]
