@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
 import numpy as np
 
 from paneldraw.widgets.ticks import label, nice, ticks
-from paneldraw.widgets.widget import Widget, dim, fitted, width_of
+from paneldraw.widgets.widget import Widget, dim, fitted, share_of, width_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -54,7 +55,7 @@ def _bounded(number: float, instead: float) -> float:
 
 def _spread(values: NDArray[np.float64], low: float, high: float, first: float, last: float) -> NDArray[np.float64]:
     """Where values lie on the way from pixel `first`, which stands for `low`, to pixel `last`; nothing lies beyond."""
-    return np.clip((values - low) / (high - low), 0, 1) * (last - first) + first
+    return np.minimum(np.maximum((values - low) / (high - low), 0), 1) * (last - first) + first
 
 
 def _curve(fb: Framebuffer, xs: NDArray[np.float64], ys: NDArray[np.float64], c: int, **options: Any) -> None:
@@ -256,75 +257,82 @@ class Chart(Widget):
         bottom = fb.height - 1
         if min(fb.width, fb.height) >= 12:
             bottom -= font.height + 3 if self.xs is not None and fb.height >= 4 * font.height - 4 else 2
-        low, high, marks = self._vertical(series)
-        left = self._draw_axes(fb, (low, high, marks), xs, bottom, c)
-        right = fb.width - 1
-        across = _spread(xs, *_range(xs, None, None), left + 1 if left else 0, right)
-        rows = _spread(series, low, high, bottom - (1 if left else 0), 0)
+        vertical, ends = self._vertical(series), _range(xs, None, None)
+        left = 0
+        if min(fb.width, fb.height) >= 12:
+            left = self._draw_vertical(fb, vertical, bottom, c)
+            self._draw_horizontal(fb, ends, left, bottom, c)
+        first = left + 1 if left else 0
+        across = _spread(xs, *ends, first, fb.width - 1)
+        rows = _spread(series, vertical.low, vertical.high, bottom - (1 if left else 0), 0)
         if self.fill:
-            _area(fb, across, rows[0], c, left + 1 if left else 0, bottom)
+            _area(fb, across, rows[0], c, first, bottom)
         for number in range(len(rows) - 1, -1, -1):
             behind = {"dash": (3, 2)} if number and fb.max_level == 1 else {}
             _curve(fb, across, rows[number], dim(fb, c) if number else c, **behind)
 
-    def _vertical(self, series: NDArray[np.float64]) -> tuple[float, float, list[float]]:
-        """The ends of the vertical axis, and the round numbers on it."""
+    def _vertical(self, series: NDArray[np.float64]) -> _Axis:
         low, high = _range(series, self.low, self.high)
         step = nice(abs(high - low) / (_MARKS - 1))
         if self.low is None and low < high:
-            low = float(np.floor(low / step + 1e-9) * step)
+            low = math.floor(low / step + 1e-9) * step
         if self.high is None and low < high:
-            high = float(np.ceil(high / step - 1e-9) * step)
-        return low, high, ticks(low, high, _MARKS + 1)
+            high = math.ceil(high / step - 1e-9) * step
+        return _axis(low, high, _MARKS + 1)
 
-    def _draw_axes(
-        self,
-        fb: Framebuffer,
-        vertical: tuple[float, float, list[float]],
-        xs: NDArray[np.float64],
-        bottom: int,
-        c: int,
-    ) -> int:
-        """Draw both axes with their numbers; return the column of the vertical one, 0 if there is no room for them."""
-        if min(fb.width, fb.height) < 12:
-            return 0
-        low, high, marks = vertical
+    def _draw_vertical(self, fb: Framebuffer, axis: _Axis, bottom: int, c: int) -> int:
+        """Draw the vertical axis, down to a row, and its numbers where there is room; return its column."""
         font = self._font
-        step = marks[1] - marks[0] if len(marks) > 1 else 0.0
-        texts = [label(mark, step) for mark in marks]
+        texts = axis.texts
         left = max((width_of(text, font) for text in texts), default=0) + 4
         if 2 * left > fb.width or bottom < font.height:
             left, texts = 2, []
-        axis = dim(fb, c)
-        fb.vline(left, 0, bottom + 1, axis)
-        fb.hline(left, bottom, fb.width - left, axis)
-        rows = _spread(np.array(marks), low, high, bottom, 0).round().tolist()
+        quiet = dim(fb, c)
+        fb.vline(left, 0, bottom + 1, quiet)
+        rows = [axis.place(mark, bottom, 0) for mark in axis.marks]
         for row in rows:
-            fb.hline(left - 2, row, 2, axis)
+            fb.hline(left - 2, row, 2, quiet)
             if self.grid and row < bottom:
-                fb.line(left + 4, row, fb.width - 1, row, axis, dash=(1, 3), antialias=None)
+                fb.line(left + 4, row, fb.width - 1, row, quiet, dash=(1, 3), antialias=None)
         # Where not every number has room, those at both ends have.
-        every = 1 if (len(marks) - 1) * (font.height + 2) <= bottom else max(len(marks) - 1, 1)
+        every = 1 if (len(rows) - 1) * (font.height + 2) <= bottom else max(len(rows) - 1, 1)
         for row, text in list(zip(rows, texts, strict=False))[::every]:
             above = min(max(row - font.baseline // 2, 0), bottom - font.baseline)
             fb.text(text, left - 4, above, c, font=font, anchor="rt")
-        self._mark_horizontal(fb, xs, left, bottom, c)
         return left
 
-    def _mark_horizontal(self, fb: Framebuffer, xs: NDArray[np.float64], left: int, bottom: int, c: int) -> None:
-        """Draw the strokes of the horizontal axis, and below them as many numbers as have room."""
+    def _draw_horizontal(self, fb: Framebuffer, ends: tuple[float, float], left: int, bottom: int, c: int) -> None:
+        """Draw the horizontal axis in a row, and below it as many numbers as have room."""
         font = self._font
-        first, last = _range(xs, None, None)
+        fb.hline(left, bottom, fb.width - left, dim(fb, c))
         has_numbers = self.xs is not None and bottom + font.height < fb.height
-        for most in range(max((fb.width - left) // (2 * font.width), 2), 1, -1):
-            marks = ticks(first, last, most)
-            step = marks[1] - marks[0] if len(marks) > 1 else 0.0
-            texts = [label(mark, step) for mark in marks]
-            if (sum(width_of(text, font) for text in texts) + 2 * font.width * len(marks)) <= fb.width - left:
-                break
-        columns = _spread(np.array(marks), first, last, left + 1, fb.width - 1).round().tolist()
-        for column, text in zip(columns, texts, strict=True):
+        axis = _axis(*ends, max((fb.width - left) // (2 * font.width), 2))
+        while (
+            len(axis.marks) > 2 and sum(width_of(text, font) + 2 * font.width for text in axis.texts) > fb.width - left
+        ):
+            axis = _axis(*ends, len(axis.marks) - 1)
+        for mark, text in zip(axis.marks, axis.texts, strict=True):
+            column = axis.place(mark, left + 1, fb.width - 1)
             fb.vline(column, bottom + 1, 2, dim(fb, c))
-            across = width_of(text, font)
             if has_numbers:
+                across = width_of(text, font)
                 fb.text(text, min(max(column - across // 2, left - 1), fb.width - across), bottom + 3, c, font=font)
+
+
+class _Axis(NamedTuple):
+    """The values at both ends, and the round numbers between them."""
+
+    low: float
+    high: float
+    marks: list[float]
+    texts: list[str]
+
+    def place(self, mark: float, first: int, last: int) -> int:
+        """The pixel of a round number, on the way from pixel `first` to pixel `last`."""
+        return round(share_of(mark, self.low, self.high) * (last - first) + first)
+
+
+def _axis(low: float, high: float, most: int) -> _Axis:
+    marks = ticks(low, high, most)
+    step = marks[1] - marks[0] if len(marks) > 1 else 0.0
+    return _Axis(low, high, marks, [label(mark, step) for mark in marks])

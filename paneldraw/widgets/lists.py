@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
-from paneldraw.widgets.widget import Widget, dim, fitted, width_of
+from paneldraw.widgets.widget import Widget, dim, finite, fitted, share_of, width_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -119,10 +119,10 @@ class ScrollBar(Widget):
         return 3, 8
 
     def _paint(self, fb: Framebuffer, c: int) -> None:
-        total = max(self.total, self.shown, 1)
-        length = min(max(round(fb.height * self.shown / total), 2), fb.height)
-        way = max(total - self.shown, 1e-9)
-        start = round((fb.height - length) * min(max(self.first / way, 0), 1))
+        shown = max(finite(self.shown), 0.0)
+        total = max(finite(self.total), shown)
+        length = min(max(round(fb.height * share_of(shown, 0, total)), 2), fb.height) if total else fb.height
+        start = round((fb.height - length) * share_of(self.first, 0, total - shown))
         fb.vline((fb.width - 1) // 2, 0, fb.height, dim(fb, c))
         fb.rect(0, start, fb.width, length, c, fill=True)
 

@@ -38,7 +38,7 @@ def ticks(low: float, high: float, most: int = 5) -> list[float]:
         return []
     if span <= max(abs(low), abs(high)) * 1e-12 or span < 1e-300:
         return [low]
-    step = nice(span / max(most - 1, 1))
+    step = nice(span / (most + 1))
     first, last = math.ceil(low / step - 1e-9), math.floor(high / step + 1e-9)
     while last - first + 1 > most:
         step = nice(step * 1.1)
@@ -71,9 +71,10 @@ def label(value: float, step: float) -> str:
     size = max(abs(value), abs(step))
     if not 1e-4 <= size < 1e15:
         return f"{value:.3g}"
-    for factor, prefix in _PREFIXES:
-        if abs(value) >= 10 * factor or abs(step) >= factor:
-            return label(value / factor, step / factor) + prefix if value else "0"
+    if size >= 1e3:
+        for factor, prefix in _PREFIXES:
+            if abs(value) >= 10 * factor or abs(step) >= factor:
+                return label(value / factor, step / factor) + prefix if value else "0"
     if not step:
         return f"{value:.4g}"
     digits = max(-math.floor(math.log10(abs(step)) + 1e-9), 0)
