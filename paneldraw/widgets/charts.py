@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Final, NamedTuple
@@ -286,7 +287,7 @@ class Chart(Widget):
         texts = axis.texts
         left = max((width_of(text, font) for text in texts), default=0) + 4
         if 2 * left > fb.width or bottom < font.height:
-            left, texts = 2, []
+            left, texts = 2, ()
         quiet = dim(fb, c)
         fb.vline(left, 0, bottom + 1, quiet)
         rows = [axis.place(mark, bottom, 0) for mark in axis.marks]
@@ -324,15 +325,16 @@ class _Axis(NamedTuple):
 
     low: float
     high: float
-    marks: list[float]
-    texts: list[str]
+    marks: tuple[float, ...]
+    texts: tuple[str, ...]
 
     def place(self, mark: float, first: int, last: int) -> int:
         """The pixel of a round number, on the way from pixel `first` to pixel `last`."""
         return round(share_of(mark, self.low, self.high) * (last - first) + first)
 
 
+@functools.lru_cache(64)
 def _axis(low: float, high: float, most: int) -> _Axis:
-    marks = ticks(low, high, most)
+    marks = tuple(ticks(low, high, most))
     step = marks[1] - marks[0] if len(marks) > 1 else 0.0
-    return _Axis(low, high, marks, [label(mark, step) for mark in marks])
+    return _Axis(low, high, marks, tuple(label(mark, step) for mark in marks))

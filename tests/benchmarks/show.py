@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
+import math
 import random
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 import peers
 from measure import Against, Contest, Names, Row
 from peers import HEIGHT, WIDTH
+from PIL import Image, ImageDraw
 
 from paneldraw import Framebuffer, Panel
-from paneldraw.controllers import SSD1306, SSD1327
+from paneldraw.controllers import SSD1306, SSD1325, SSD1327, Controller
 from paneldraw.transports import I2CTransport, SPITransport
+from paneldraw.widgets import Chart
 
 LUMA = "luma.oled"
 LUMA_SPI = "luma.oled on SPI"
@@ -62,7 +66,16 @@ ROWS = [
     spi_row("one pixel changed, on SPI", "lines", "lines_and_a_pixel", 20),
     gray_row("every pixel changed, 16 grays", "gray_noise", "gray_inverse", 20),
     gray_row("one pixel changed, 16 grays", "gray_noise", "gray_noise_and_a_pixel"),
+    # luma's is drawn with Pillow, and has no axes.
+    Row(
+        "a chart of 128 points, drawn and shown", 2, "chart(one); chart(other)",
+        (Against(LUMA, "chart(one); chart(other)"),),
+    ),
+    Row("a chart of 128 points, drawn and shown, 16 grays", 2, "gray_chart(one); gray_chart(other)"),
 ]
+
+#: Two readings of a quantity, 128 points each, the second a step later.
+READINGS = [[20 + 4 * math.sin(x / 10) + 1.5 * math.sin(x / 2) for x in range(start, start + 128)] for start in (0, 1)]
 
 
 def pictures() -> dict[str, Framebuffer]:
@@ -127,7 +140,23 @@ def names() -> Names:
     bus = Forgetful()
     show_spi = Panel(SSD1306(WIDTH, HEIGHT), SPITransport(spi=bus, pins=bus)).show
     show, show_gray = (Panel(chip, I2CTransport(bus)).show for chip in (SSD1306(WIDTH, HEIGHT), SSD1327()))
-    return {**pictures(), **gray_pictures(), "show": show, "show_spi": show_spi, "show_gray": show_gray}
+    charts = {"chart": charting(SSD1306(WIDTH, HEIGHT)), "gray_chart": charting(SSD1325(WIDTH, HEIGHT))}
+    readings = {"one": np.array(READINGS[0]), "other": np.array(READINGS[1])}
+    shows = {"show": show, "show_spi": show_spi, "show_gray": show_gray}
+    return {**pictures(), **gray_pictures(), **shows, **charts, **readings}
+
+
+def charting(chip: Controller) -> Callable[[Any], None]:
+    """What draws a chart with its axes on a panel, and shows it."""
+    panel = Panel(chip, I2CTransport(Forgetful()))
+    fb = panel.framebuffer()
+
+    def chart(values: Any) -> None:
+        fb.clear()
+        Chart(values).draw(fb)
+        panel.show(fb)
+
+    return chart
 
 
 def images() -> Names:
@@ -137,7 +166,14 @@ def images() -> Names:
 
 def luma() -> Names:
     """Its device on I2C."""
-    return {"display": peers.luma(Forgetful()).display, **images()}
+    device = peers.luma(Forgetful())
+
+    def chart(values: list[float]) -> None:
+        image = Image.new("1", (WIDTH, HEIGHT))
+        ImageDraw.Draw(image).line([(x, 63 - (value - 10) * 3) for x, value in enumerate(values)], 1)
+        device.display(image)
+
+    return {"display": device.display, "chart": chart, "one": READINGS[0], "other": READINGS[1], **images()}
 
 
 def luma_spi() -> Names:
