@@ -14,13 +14,13 @@ A widget clears nothing: what is drawn lies over what is there, as with the fram
 
 from __future__ import annotations
 
+from .axis import ticks
 from .charts import Bars, Chart, Sparkline
 from .lists import Menu, ScrollBar, Tabs
 from .messages import Log, Marquee, Toast
 from .meters import Battery, Gauge, Number, ProgressBar, Signal
 from .pages import Pages
 from .qr import QRCode
-from .ticks import ticks
 from .widget import Widget
 
 __all__ = [

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
 import numpy as np
 
-from paneldraw.widgets.ticks import label, nice, ticks
+from paneldraw.widgets.axis import label, nice, ticks
 from paneldraw.widgets.widget import Widget, dim, fitted, share_of, width_of
 
 if TYPE_CHECKING:
@@ -45,7 +45,7 @@ def _range(values: NDArray[np.float64], low: float | None, high: float | None) -
         top = _bounded(high, top)
         bottom = min(bottom, top) if low is None else bottom
     if abs(top - bottom) <= max(1e-12 * max(abs(top), abs(bottom)), 1 / _LARGE):
-        middle = abs(bottom) / 2 or 0.5
+        middle = abs(bottom) / 2 if abs(bottom) > 1 / _LARGE else 0.5
         return bottom - middle, bottom + middle
     return bottom, top
 
@@ -93,7 +93,7 @@ class Sparkline(Widget):
     >>> print(fb)
     ...#...##
     ..#.#..##
-    .#...##..
+    .#...#.#.
     #.....#..
     """
 

@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
-from paneldraw.widgets.ticks import ticks
+from paneldraw.widgets.axis import ticks
 from paneldraw.widgets.widget import Widget, dim, fitted, largest, share_of, width_of
 
 if TYPE_CHECKING:
@@ -32,11 +32,12 @@ class ProgressBar(Widget):
     --------
     >>> from paneldraw import Framebuffer
     >>> from paneldraw.widgets import ProgressBar
-    >>> fb = Framebuffer(16, 6)
+    >>> fb = Framebuffer(16, 7)
     >>> ProgressBar(0.5).draw(fb)
     >>> print(fb)
     ################
     #..............#
+    #.######.......#
     #.######.......#
     #.######.......#
     #..............#
@@ -252,10 +253,10 @@ class Battery(Widget):
     >>> print(fb)
     #############..
     #...........#..
-    #.#####.....###
-    #.#####.....###
-    #.#####.....###
-    #.#####.....###
+    #.####......###
+    #.####......###
+    #.####......###
+    #.####......###
     #...........#..
     #############..
     """

@@ -33,7 +33,7 @@ from paneldraw.widgets import (
     Toast,
     ticks,
 )
-from paneldraw.widgets.ticks import label, nice
+from paneldraw.widgets.axis import label, nice
 
 WAVE = [20 + 4 * math.sin(x / 10) + 1.5 * math.sin(x / 2) for x in range(128)]
 ENTRIES = ["Brightness", ("Contrast", "50"), ("Wi-Fi", "on"), "Bluetooth", "Language", "Date and time", "About"]

@@ -65,7 +65,7 @@ def label(value: float, step: float) -> str:
 
     Examples
     --------
-    >>> label(0.5, 0.25), label(30, 10), label(15000, 5000)
+    >>> label(0.5, 0.05), label(30, 10), label(15000, 5000)
     ('0.50', '30', '15k')
     """
     size = max(abs(value), abs(step))
