@@ -6,7 +6,7 @@ from bisect import bisect_right
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
-from paneldraw.widgets.widget import Widget, finite, fitted, width_of
+from paneldraw.widgets.widget import Widget, finite, fitted, share_of, width_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -43,14 +43,16 @@ class Toast(Widget):
 
     def _paint(self, fb: Framebuffer, c: int) -> None:
         font = self._font
-        w, h = (min(wanted, room) for wanted, room in zip(self.size, (fb.width, fb.height), strict=True))
+        across, down = self.size
+        w, h = min(across, fb.width), min(down, fb.height)
         margin = 2 if fb.height >= h + 8 else 0
         x = (fb.width - w) // 2
-        y = fb.height - round((h + margin) * min(max(finite(self.share), 0.0), 1.0))
+        y = fb.height - round((h + margin) * share_of(self.share))
         fb.round_rect(x, y, w, h, 4, 0, fill=True)
-        fb.round_rect(x + 1, y + 1, w - 2, h - 2, 3, c) if min(w, h) > 4 else None
+        if min(w, h) > 4:
+            fb.round_rect(x + 1, y + 1, w - 2, h - 2, 3, c)
+        top = y + max(4 - (down - h) // 2, 2)
         with fb.clip(x + 2, y + 2, max(w - 4, 0), max(h - 4, 0)):
-            top = y + max((h - self.size[1] + 8) // 2, 2) if h < self.size[1] else y + 4
             for number, line in enumerate(self.text.split("\n")):
                 place = x + (w - 1) // 2, top + number * font.height
                 fb.text(fitted(line, w - 6, font), *place, c, font=font, anchor="mt")

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, ClassVar, NamedTuple
 
 from paneldraw.widgets.axis import ticks
 from paneldraw.widgets.widget import Widget, dim, fitted, largest, share_of, width_of
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from paneldraw import Framebuffer
 
 _SWEEP = 240
@@ -114,67 +116,91 @@ class Gauge(Widget):
 
     def _paint(self, fb: Framebuffer, c: int) -> None:
         # The dial reaches half a radius below its center, where it opens.
-        radius = min((fb.width - 1) / 2, (fb.height - 1) / 1.5)
-        radius = math.floor(radius)
+        radius = math.floor(min((fb.width - 1) / 2, (fb.height - 1) / 1.5))
         if radius < 3:
             return
-        x, y = (fb.width - 1) / 2, (fb.height - 1 - 1.5 * radius) / 2 + radius
-        x, y = round(2 * x) / 2, round(y)
-        angle = _START + _SWEEP * share_of(self.value, self.low, self.high)
+        dial = _Dial(fb, (fb.width - 1) / 2, round((fb.height - 1 + radius / 2) / 2), radius)
+        degrees = _START + _SWEEP * share_of(self.value, self.low, self.high)
         if self.needle:
-            self._scale(fb, x, y, radius, c)
-            self._pointer(fb, x, y, radius, angle, c)
-            self._write_below(fb, x, radius, c)
-            return
-        thick = max(radius // 5, 2)
-        middle = radius - thick / 2
-        if fb.max_level > 1:
-            fb.arc(x, y, middle, _START, _START + _SWEEP, dim(fb, c), width=thick)
+            marks = [_START + _SWEEP * share_of(mark, self.low, self.high) for mark in ticks(self.low, self.high, 6)]
+            dial.scale(marks, c)
+            dial.needle(degrees, c)
+            self._write_below(dial, c)
         else:
-            fb.arc(x, y, radius, _START, _START + _SWEEP, c)
-            fb.arc(x, y, radius - thick, _START, _START + _SWEEP, c)
-            for degrees in (_START, _START + _SWEEP):
-                dx, dy = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
-                fb.line(x + (radius - thick) * dx, y + (radius - thick) * dy, x + radius * dx, y + radius * dy, c)
-        if angle > _START:
-            fb.arc(x, y, middle, _START, angle, c, width=thick)
-        self._write(fb, x, y, radius - thick, c)
+            dial.track(c)
+            if degrees > _START:
+                dial.fill(degrees, c)
+            self._write_within(dial, c)
 
-    def _scale(self, fb: Framebuffer, x: float, y: float, radius: int, c: int) -> None:
-        """Draw the arc, and strokes at round values of it."""
-        fb.arc(x, y, radius, _START, _START + _SWEEP, dim(fb, c))
-        for value in ticks(self.low, self.high, 6):
-            angle = math.radians(_START + _SWEEP * share_of(value, self.low, self.high))
-            dx, dy = math.cos(angle), math.sin(angle)
-            inner = radius - max(radius // 6, 2)
-            fb.line(x + inner * dx, y + inner * dy, x + radius * dx, y + radius * dy, c)
-
-    def _pointer(self, fb: Framebuffer, x: float, y: float, radius: int, degrees: float, c: int) -> None:
-        dx, dy = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
-        reach = radius - max(radius // 6, 2) - 2
-        fb.line(x, y, x + reach * dx, y + reach * dy, c, width=max(radius // 14, 1))
-        fb.circle(x, y, max(radius // 10, 1), c, fill=True)
-
-    def _write_below(self, fb: Framebuffer, x: float, radius: int, c: int) -> None:
+    def _write_below(self, dial: _Dial, c: int) -> None:
         """Write value and unit, or the value alone, where the dial is open."""
-        font = self._font
+        fb, font = dial.fb, self._font
         value = format(self.value, self.form)
         for text in (f"{value} {self.unit}", value):
-            if width_of(text, font) <= 1.2 * radius and radius >= 3 * font.height:
-                fb.text(text, x, fb.height - 1, c, font=font, anchor="mb")
+            if width_of(text, font) <= 1.2 * dial.radius and dial.radius >= 3 * font.height:
+                fb.text(text, dial.x, fb.height - 1, c, font=font, anchor="mb")
                 return
 
-    def _write(self, fb: Framebuffer, x: float, y: float, radius: int, c: int) -> None:
-        """Write the value as large as it fits into the dial, and below it the unit, if there is room for that."""
-        small = self._font
+    def _write_within(self, dial: _Dial, c: int) -> None:
+        """Write the value as large as it fits, and below it the unit, if there is room for that."""
+        fb, small, radius = dial.fb, self._font, dial.radius - dial.thickness
         text = format(self.value, self.form)
         if width_of(text, small) > 2 * radius - 2 or radius < small.height - 1:
             return
-        room = 2 * (fb.height - 1 - y - small.baseline - 2)
+        room = 2 * (fb.height - 1 - dial.y - small.baseline - 2)
         unit = fitted(self.unit, 2 * radius - 2, small) if room >= small.height else ""
-        font = largest(text, 2 * radius - max(radius // 3, 4), min(radius, int(room)) if unit else radius, small)
-        fb.text(text, x, y, c, font=font, anchor="mm")
-        fb.text(unit, x, y + font.height // 2 + 2, c, font=small, anchor="mt")
+        font = largest(text, 2 * radius - max(radius // 3, 4), min(radius, room) if unit else radius, small)
+        fb.text(text, dial.x, dial.y, c, font=font, anchor="mm")
+        fb.text(unit, dial.x, dial.y + font.height // 2 + 2, c, font=small, anchor="mt")
+
+
+class _Dial(NamedTuple):
+    """Where a gauge's dial is, and its parts."""
+
+    fb: Framebuffer
+    x: float
+    y: int
+    radius: int
+
+    @property
+    def thickness(self) -> int:
+        return max(self.radius // 5, 2)
+
+    @property
+    def stroke(self) -> int:
+        """Length of the strokes of the scale."""
+        return max(self.radius // 6, 2)
+
+    def ray(self, degrees: float, start: float, end: float, c: int, width: int = 1) -> None:
+        """Draw a line along a direction, from and to a distance from the center."""
+        dx, dy = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
+        self.fb.line(self.x + start * dx, self.y + start * dy, self.x + end * dx, self.y + end * dy, c, width=width)
+
+    def track(self, c: int) -> None:
+        """Draw the whole arc: dimly, or where there are no grays, its outline."""
+        if self.fb.max_level > 1:
+            self.fill(_START + _SWEEP, dim(self.fb, c))
+            return
+        inner = self.radius - self.thickness
+        for radius in (inner, self.radius):
+            self.fb.arc(self.x, self.y, radius, _START, _START + _SWEEP, c)
+        for degrees in (_START, _START + _SWEEP):
+            self.ray(degrees, inner, self.radius, c)
+
+    def fill(self, degrees: float, c: int) -> None:
+        """Draw the thick arc up to an angle."""
+        self.fb.arc(self.x, self.y, self.radius - self.thickness / 2, _START, degrees, c, width=self.thickness)
+
+    def scale(self, marks: Sequence[float], c: int) -> None:
+        """Draw a thin arc with strokes at angles."""
+        self.fb.arc(self.x, self.y, self.radius, _START, _START + _SWEEP, dim(self.fb, c))
+        for degrees in marks:
+            self.ray(degrees, self.radius - self.stroke, self.radius, c)
+
+    def needle(self, degrees: float, c: int) -> None:
+        """Draw the needle and its hub."""
+        self.ray(degrees, 0, self.radius - self.stroke - 2, c, width=max(self.radius // 14, 1))
+        self.fb.circle(self.x, self.y, max(self.radius // 10, 1), c, fill=True)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
