@@ -22,7 +22,7 @@ def draw(fb: Framebuffer, t: float) -> None:
     fb.antialias = Supersample(4) if fb.depth > 1 else None
     page, stayed = divmod(t / STAY, 1)
     day = Chart(HOURS, xs=range(0, 24, 2), grid=True, fill=True)
-    week = Bars(list(WEEK.values()), list(WEEK), low=10)
+    week = Bars(WEEK.values(), list(WEEK), low=10)
     Pages([lambda part: now(part, t), day, week], page + max(0.0, 8 * stayed - 7), dots=True).draw(fb)
 
 

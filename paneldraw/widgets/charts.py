@@ -13,11 +13,13 @@ from paneldraw.widgets.axis import label, nice, ticks
 from paneldraw.widgets.widget import Widget, dim, fitted, share_of, width_of
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Collection, Sequence
 
     from numpy.typing import ArrayLike, NDArray
 
     from paneldraw import Framebuffer
+
+    Numbers = ArrayLike | Collection[float]
 
 _MARKS: Final = 5
 """About how many round numbers a vertical axis has."""
@@ -26,9 +28,10 @@ _LARGE: Final = 1e150
 """What is larger counts as this, so that no difference of two numbers is too large for a float."""
 
 
-def _numbers(values: ArrayLike) -> NDArray[np.float64]:
+def _numbers(values: Numbers) -> NDArray[np.float64]:
     """Values as an array of finite numbers and of NaN for what is missing."""
-    numbers: NDArray[np.float64] = np.asarray(values, np.float64)
+    given: Any = values
+    numbers: NDArray[np.float64] = np.asarray(given if hasattr(given, "__getitem__") else list(given), np.float64)
     return np.clip(numbers, -_LARGE, _LARGE)
 
 
@@ -97,14 +100,14 @@ class Sparkline(Widget):
     #.....#..
     """
 
-    values: ArrayLike
+    values: Numbers
     low: float | None = None
     high: float | None = None
     fill: bool = False
 
     @property
     def size(self) -> tuple[int, int]:
-        return max(min(len(np.atleast_1d(self.values)), 64), 1), self._font.height
+        return max(min(_numbers(self.values).size, 64), 1), self._font.height
 
     def _paint(self, fb: Framebuffer, c: int) -> None:
         values = _numbers(self.values).ravel()[-fb.width :]
@@ -163,15 +166,15 @@ class Bars(Widget):
     ##.##.##.##
     """
 
-    values: ArrayLike
+    values: Numbers
     labels: Sequence[str] = ()
     low: float | None = None
     high: float | None = None
-    caps: ArrayLike | None = None
+    caps: Numbers | None = None
 
     @property
     def size(self) -> tuple[int, int]:
-        count = max(len(np.atleast_1d(self.values)), 1)
+        count = max(_numbers(self.values).size, 1)
         across = max((width_of(text, self._font) + 2 for text in self.labels), default=3)
         return count * across - 1, self._font.height * (2 if self.labels else 1)
 
@@ -236,8 +239,8 @@ class Chart(Widget):
     >>> Chart([18.2, 18.9, 21.4, 23.0, 22.1, 19.5], xs=[6, 9, 12, 15, 18, 21]).draw(fb)
     """
 
-    values: ArrayLike
-    xs: ArrayLike | None = None
+    values: Numbers
+    xs: Numbers | None = None
     low: float | None = None
     high: float | None = None
     grid: bool = False

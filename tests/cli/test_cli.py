@@ -41,6 +41,14 @@ def test_a_strangers_first_command(run):
     assert "300 frames" in done.stdout.splitlines()[-1]
 
 
+def test_a_demo_has_grays_unless_a_panel_is_named(run):
+    wholes = {"": 4096, "sim://ssd1306": 1024, "sim://sh1122": 8192}
+    for url, whole in wholes.items():
+        done = run("demo", "--frames", 1, **({"PANELDRAW_PANEL": url} if url else {}))
+        assert done.stdout.splitlines()[-1].endswith(f"bytes on the wire for {whole} of pixels")
+    assert run("text", "Hi").stdout.count("█") > 5
+
+
 def test_a_pipe_that_knows_no_unicode(run):
     done = run("demo", "cube", "--frames", 2, PYTHONIOENCODING="ascii")
     assert done.returncode == 0

@@ -5,6 +5,8 @@ from __future__ import annotations
 import dataclasses
 import math
 import sys
+from array import array
+from collections import deque
 
 import numpy as np
 import pytest
@@ -221,6 +223,14 @@ def test_of_more_bars_than_columns_the_highest_count():
 
 def test_of_more_values_than_columns_a_sparkline_shows_the_last():
     assert drawn(Sparkline([99] * 50 + WAVE[:64]), 64, 16) == drawn(Sparkline(WAVE[:64]), 64, 16)
+
+
+def test_any_collection_of_numbers_will_do():
+    by_name = dict(zip("abcd", (1, 4, 2, 3), strict=True))
+    same = [by_name.values(), deque(by_name.values()), array("h", by_name.values()), np.array([1, 4, 2, 3], np.uint8)]
+    for make in (Bars, Sparkline, Chart):
+        assert all(drawn(make(values)) == drawn(make([1, 4, 2, 3])) for values in same)
+        assert all(make(values).size == make([1, 4, 2, 3]).size for values in same)
 
 
 def test_nothing_to_show_is_nothing():
