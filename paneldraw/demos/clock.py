@@ -47,7 +47,7 @@ def _face(fb: Framebuffer, x: int, y: int, radius: int, t: float) -> None:
         dx, dy = math.sin(2 * math.pi * turn), -math.cos(2 * math.pi * turn)
         fb.line(x + dx * start, y + dy * start, x + dx * end, y + dy * end, width=width, antialias=antialias)
 
-    fb.circle(x, y, radius)
+    fb.circle(x, y, radius, antialias=antialias)
     for hour in range(12):
         ray(hour / 12, radius - radius // 8, radius)
     ray(t / 43200, 0, radius * 0.5, width=max(1, round(radius / 9)))
