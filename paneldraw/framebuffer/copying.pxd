@@ -3,6 +3,14 @@ from paneldraw.raster.coverage cimport Coverage
 from paneldraw.raster.surface cimport Surface
 
 cdef object write_text(Coverage coverage, object s, object x, object y, object font, object anchor)
+cdef object set_text(
+    Coverage coverage, object s, object x, object y, object font, object anchor, object line_spacing, object direction,
+    object inverse,
+)
+cdef object write_box(
+    Coverage coverage, object s, object x, object y, object w, object h, object font, tuple style, object inverse
+)
+cdef object _stamp(Coverage coverage, object shares, long long left, long long top, bint inverse)
 cdef object paint_picture(Surface surface, object picture, object x, object y, object dither, object op)
 cdef object paint_seen(
     Surface surface, object before, object picture, tuple place, object fill, dict options, dict tones

@@ -4,7 +4,8 @@
 from __future__ import annotations
 
 import cython
-from cython.cimports.paneldraw.framebuffer.arguments import BEYOND, is_word, level, near_pixel, top_left, uint8s
+import numpy as np
+from cython.cimports.paneldraw.framebuffer.arguments import BEYOND, extent, is_word, level, near_pixel, top_left, uint8s
 from cython.cimports.paneldraw.raster.blit import Picture, blit, block, mix, paint_grays, scroll
 from cython.cimports.paneldraw.raster.glyphs import Glyphs, one_line, stamp, write
 from cython.cimports.paneldraw.raster.surface import ADD, OVER, XOR, Surface
@@ -37,9 +38,7 @@ def write_text(coverage, s, x, y, font, anchor):
             simple = not glyphs.overlapping
     if not simple:
         shares, dx, dy = _layout.render(s, font, anchor)
-        height, width = shares.shape
-        mask = bytearray(shares.tobytes())
-        stamp(coverage, uint8s(mask), width, height, left + dx, top + dy)
+        _stamp(coverage, shares, left + dx, top + dy, False)
         return
     # More is as much: one pixel of the font, beside it or not, is all there is to see.
     factor: cython.longlong = min(font._factor, 1 << 31)
@@ -50,6 +49,55 @@ def write_text(coverage, s, x, y, font, anchor):
         left += max(dx, -BEYOND)
         top += max(dy, -BEYOND)
     write(coverage.surface, glyphs, s, left, top, factor)
+
+
+def set_text(coverage, s, x, y, font, anchor, line_spacing, direction, inverse):
+    """Write text that is not set as most is."""
+    import paneldraw.text
+
+    left: cython.longlong = top_left("x", x)
+    top: cython.longlong = top_left("y", y)
+    shares, dx, dy = paneldraw.text.render(
+        s, font, anchor, line_spacing=line_spacing, direction=direction, inverse=inverse
+    )
+    _stamp(coverage, shares, left + dx, top + dy, inverse)
+
+
+def write_box(coverage, s, x, y, w, h, font, style, inverse):
+    """Write text in a box; return the rest of it."""
+    import paneldraw.text
+
+    surface: Surface = coverage.surface
+    left: cython.longlong = near_pixel("x", x)
+    top: cython.longlong = near_pixel("y", y)
+    width: cython.longlong = min(extent("w", w, 1), 1 << 30)
+    height: cython.longlong = min(extent("h", h, 1), 1 << 30)
+    picture, rest = paneldraw.text.boxed(s, width, height, font, paneldraw.text.Style(*style))
+    if not inverse:
+        _stamp(coverage, picture.ink, left + picture.left, top + picture.top, False)
+        return rest
+    # The part of the box that is seen, less the characters in it.
+    across: cython.longlong = max(left, surface.left)
+    down: cython.longlong = max(top, surface.top)
+    size = (max(min(top + height, surface.bottom) - down, 0), max(min(left + width, surface.right) - across, 0))
+    picture = picture._replace(left=picture.left + left - across, top=picture.top + top - down)
+    part = paneldraw.text.within(picture, size)
+    shares = np.full(size, 255, np.uint8)
+    shares[part.top : part.top + part.ink.shape[0], part.left : part.left + part.ink.shape[1]] -= part.ink
+    _stamp(coverage, shares, across, down, True)
+    return rest
+
+
+def _stamp(coverage, shares, left, top, inverse):
+    """Paint what is covered; of an inverse box, what is not is dark."""
+    surface: Surface = coverage.surface
+    color: cython.int = surface.level
+    height, width = shares.shape
+    if inverse and surface.op == OVER:
+        block(surface, left, top, left + width, top + height, 0, OVER)
+        surface.paint_with(color, OVER)
+    mask = bytearray(shares.tobytes())
+    stamp(coverage, uint8s(mask), width, height, left, top)
 
 
 def paint_picture(surface, picture, x, y, dither, op):

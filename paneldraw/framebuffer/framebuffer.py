@@ -17,6 +17,8 @@ from cython.cimports.paneldraw.framebuffer.copying import (
     move_levels,
     paint_picture,
     paint_seen,
+    set_text,
+    write_box,
     write_text,
 )
 from cython.cimports.paneldraw.framebuffer.painter import Painter
@@ -43,6 +45,8 @@ if TYPE_CHECKING:
     from paneldraw.framebuffer.sprites import Sprite
     from paneldraw.simulator.looks import Look
     from paneldraw.text import Font
+    from paneldraw.text.box import Align, Valign, Wrap
+    from paneldraw.text.layout import Direction
 
 _DEPTHS = (1, 2, 4, 8)
 _ALGORITHMS = {"bresenham": 0, "dda": 1}
@@ -867,6 +871,9 @@ class Framebuffer:
         *,
         font: Font | None = None,
         anchor: str = "la",
+        line_spacing: int = 0,
+        direction: Direction = "right",
+        inverse: bool = False,
         op: str = "over",
     ) -> None:
         """Write text.
@@ -880,28 +887,120 @@ class Framebuffer:
         c : int, optional
             Of the characters' lit pixels; the others stay as they are.
         font : Font, optional
-            Default: the built-in font of 6 x 8 pixels a character.
+            Default: the built-in font of 6 x 8 pixels a character. ``font.scaled(2)`` is twice as large.
         anchor : str, default "la"
             Which pixel of the text (x, y) means, in Pillow's letters: ``l``, ``m`` or ``r``; then ``a`` and ``d`` for
             the top and lowest row of the line, ``t`` and ``b`` for those that are lit, ``m``, or ``s`` for the row that
             the first line stands on. See `paneldraw.text.render`.
+        line_spacing : int, default 0
+            Rows between lines; negative to bring them closer.
+        direction : {"right", "down", "left", "up"}, default "right"
+            Where the text runs, as the whole of it is turned about (x, y) by quarter turns.
+        inverse : bool, default False
+            Whether the characters are dark, in a box of level `c` that reaches a pixel beyond the lines on each side.
+            Where `op` is not ``"over"``, they are left as they were.
         op : {"over", "xor", "add", "max", "clear"}
 
         Raises
         ------
         ValueError
-            If `anchor` or `op` is none of these.
+            If `anchor`, `direction` or `op` is none of these, or lines are closer than a row.
 
         Examples
         --------
         >>> from paneldraw import Framebuffer
-        >>> fb = Framebuffer(12, 8)
-        >>> fb.text("Hi", 0, 0)
-        >>> int(fb.pixels.sum()) > 0
-        True
+        >>> fb = Framebuffer(9, 12)
+        >>> fb.text("Hi", 8, 0, direction="down")
+        >>> print(fb)
+        ..#######
+        .....#...
+        .....#...
+        .....#...
+        ..#######
+        .........
+        .........
+        ..#...#..
+        ..#####.#
+        ..#......
+        .........
+        .........
         """
         self.painter.paint_with(c, op)
-        write_text(self.painter.coverage, s, x, y, font, anchor)
+        if is_word(direction, "right") and inverse is False and quick(line_spacing) == 0:
+            write_text(self.painter.coverage, s, x, y, font, anchor)
+        else:
+            set_text(self.painter.coverage, s, x, y, font, anchor, line_spacing, direction, inverse)
+
+    def text_box(
+        self,
+        s: str,
+        x: int | float,
+        y: int | float,
+        w: int | float,
+        h: int | float,
+        c: int | None = None,
+        *,
+        font: Font | None = None,
+        align: Align = "left",
+        valign: Valign = "top",
+        wrap: Wrap = "word",
+        ellipsis: str = "…",
+        line_spacing: int = 0,
+        inverse: bool = False,
+        op: str = "over",
+    ) -> str:
+        """Write as much of a text as a box holds, in lines no wider than it.
+
+        Parameters
+        ----------
+        s : str
+            Ends of line in it stay.
+        x, y : int or float
+            The top-left pixel of the box. Nothing is drawn outside of the box.
+        w, h : int or float
+            Its size in pixels. A box lower than a line holds none.
+        c : int, optional
+            Of the characters' lit pixels; the others stay as they are.
+        font : Font, optional
+            Default: the built-in font of 6 x 8 pixels a character.
+        align : {"left", "center", "right"}, default "left"
+            Which side of the box the lines are flush with.
+        valign : {"top", "middle", "bottom"}, default "top"
+            Where they stand in it if it is higher.
+        wrap : {"word", "letter", None}, default "word"
+            Lines end where words do (see `paneldraw.text.wrap`), or behind any letter, or only where the text has an
+            end of line; then each line that is too wide is cut.
+        ellipsis : str, default "…"
+            What stands at the end of a text that is cut, or of a line; ``"..."`` where the font has no ``"…"``. Empty
+            for nothing. A line too narrow for a letter and this is without.
+        line_spacing : int, default 0
+            Rows between lines; negative to bring them closer.
+        inverse : bool, default False
+            Whether the characters are dark and the rest of the box has level `c`. Where `op` is not ``"over"``, they
+            are left as they were.
+        op : {"over", "xor", "add", "max", "clear"}
+
+        Returns
+        -------
+        str
+            The rest of the text that the box does not hold, to go on with in another; empty if it holds all. Without
+            wrapping, whole lines.
+
+        Raises
+        ------
+        ValueError
+            If `align`, `valign`, `wrap` or `op` is none of these, or lines are closer than a row.
+
+        Examples
+        --------
+        >>> from paneldraw import Framebuffer
+        >>> fb = Framebuffer(64, 16)
+        >>> fb.text_box("Rain in the afternoon, wind from the west", 0, 0, 64, 16, ellipsis="")
+        'afternoon, wind from the west'
+        """
+        self.painter.paint_with(c, op)
+        style = (align, valign, wrap, ellipsis, line_spacing)
+        return write_box(self.painter.coverage, s, x, y, w, h, font, style, inverse)
 
     def image(
         self,

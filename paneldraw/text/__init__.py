@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+from paneldraw.text.box import Style as Style
+from paneldraw.text.box import boxed as boxed
+from paneldraw.text.box import within as within
+from paneldraw.text.box import wrap
 from paneldraw.text.characters import composed as composed
 from paneldraw.text.font import TAB as TAB
 from paneldraw.text.font import Font
@@ -10,4 +14,4 @@ from paneldraw.text.font import split_lines as split_lines
 from paneldraw.text.layout import offset as offset
 from paneldraw.text.layout import render
 
-__all__ = ["Font", "render"]
+__all__ = ["Font", "render", "wrap"]

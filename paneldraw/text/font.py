@@ -22,6 +22,9 @@ if TYPE_CHECKING:
 NO_CHARACTER = 0x10FFFF
 """What no font has a picture of."""
 
+LARGEST_SPACING = 65536
+"""Rows; more than any panel has."""
+
 TAB = 4
 """Columns between tab stops, in characters: a narrow panel has about twenty of them."""
 
@@ -298,17 +301,18 @@ class Font:
 
         return cover([char], self, "la")[0]
 
-    def measure(self, text: str) -> tuple[int, int]:
-        """Return (width, height) in pixels of a text, which may have several lines.
+    def measure(self, text: str, line_spacing: int = 0) -> tuple[int, int]:
+        """Return (width, height) in pixels of a text, which may have several lines, so many rows apart.
 
         Examples
         --------
         >>> Font.builtin().measure("two\\nlines")
         (29, 16)
         """
+        check_line_spacing(line_spacing, self)
         lines = split_lines(text)
         width = max(self._face.line(line).advance for line in lines)
-        return math.ceil(width), self.height * len(lines)
+        return math.ceil(width), (self.height + line_spacing) * len(lines) - line_spacing
 
 
 def font_of(font: Any) -> Font:
@@ -327,6 +331,17 @@ def split_lines(text: str) -> list[str]:
     if not text.isascii():
         text = composed(text)
     return text.replace("\r\n", "\n").expandtabs(TAB).split("\n")
+
+
+def check_line_spacing(rows: int, font: Font) -> None:
+    """Refuse what is no distance between lines."""
+    if not isinstance(rows, int):
+        raise TypeError(f"line_spacing must be a whole number of rows, not {type(rows).__name__}")
+    if not -font.height < rows <= LARGEST_SPACING:
+        raise ValueError(
+            f"line_spacing must be from {1 - font.height}, which leaves lines a row apart, to {LARGEST_SPACING}, "
+            f"not {rows}"
+        )
 
 
 def of_strike(strike: Strike) -> Font:
