@@ -13,5 +13,6 @@ from paneldraw.text.font import font_of as font_of
 from paneldraw.text.font import split_lines as split_lines
 from paneldraw.text.layout import offset as offset
 from paneldraw.text.layout import render
+from paneldraw.text.marquee import Marquee
 
-__all__ = ["Font", "render", "wrap"]
+__all__ = ["Font", "Marquee", "render", "wrap"]
