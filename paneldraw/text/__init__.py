@@ -7,6 +7,7 @@ from paneldraw.text.box import boxed as boxed
 from paneldraw.text.box import within as within
 from paneldraw.text.box import wrap
 from paneldraw.text.characters import composed as composed
+from paneldraw.text.console import Console
 from paneldraw.text.font import TAB as TAB
 from paneldraw.text.font import Font
 from paneldraw.text.font import font_of as font_of
@@ -15,4 +16,4 @@ from paneldraw.text.layout import offset as offset
 from paneldraw.text.layout import render
 from paneldraw.text.marquee import Marquee
 
-__all__ = ["Font", "Marquee", "render", "wrap"]
+__all__ = ["Console", "Font", "Marquee", "render", "wrap"]
