@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
+import unicodedata
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import groupby
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
@@ -21,6 +22,10 @@ KEPT = 1 << 20
 
 JOINERS = "\u200c\u200d"
 """What decides the form of the letters beside it is for the font to see."""
+
+
+_RAQM = 1
+"""Pillow's ImageFont.Layout.RAQM, without importing it."""
 
 
 class Face(Protocol):
@@ -107,6 +112,32 @@ class FreeTypeFace:
     def __init__(self, font: ImageFont.FreeTypeFont, has: Callable[[int], bool], antialias: bool) -> None:
         self._font, self._has, self._mode = font, has, "L" if antialias else "1"
         self._ascent = font.getmetrics()[0]
+        self._shaping: dict[str, Any] = {}
+
+    @property
+    def shapes(self) -> bool:
+        """Whether letters are shaped and ordered by raqm: those of Hebrew and Arabic from right to left."""
+        return self._font.layout_engine == _RAQM
+
+    def shaped(self, shaping: dict[str, Any]) -> FreeTypeFace:
+        """Return the face with a direction, features or a language of Pillow's."""
+        if not self.shapes:
+            raise ValueError(
+                "direction, features and language need Pillow with raqm, which pip's has, and a font that was loaded "
+                "with ImageFont.Layout.RAQM, the default"
+            )
+        face = FreeTypeFace(self._font, self._has, self._mode == "L")
+        face._shaping = self._shaping | shaping
+        return face
+
+    def is_from_the_right(self, text: str) -> bool:
+        """Whether a text starts at the right: by the direction, else by its first letter that has one."""
+        if not self.shapes:
+            return False
+        if "direction" in self._shaping:
+            return bool(self._shaping["direction"] == "rtl")
+        strong = (unicodedata.bidirectional(char) for char in text)
+        return next((kind for kind in strong if kind in ("L", "R", "AL")), "L") != "L"
 
     def has(self, code: int) -> bool:
         """Whether the font has a picture of a character."""
@@ -118,7 +149,7 @@ class FreeTypeFace:
 
         if not text:
             return NOTHING
-        bounds = self._font.getbbox(text, self._mode, anchor="ls")
+        bounds = self._font.getbbox(text, self._mode, anchor="ls", **self._shaping)
         left, top, right, bottom = (int(edge) for edge in bounds)
         width, height = right - left, bottom - top
         if width * height > 2 * (Image.MAX_IMAGE_PIXELS or math.inf):
@@ -126,8 +157,8 @@ class FreeTypeFace:
         image = Image.new("L", (width, height))
         draw = ImageDraw.Draw(image)
         draw.fontmode = self._mode
-        draw.text((-left, -top), text, 255, self._font, anchor="ls")
-        length = self._font.getlength(text, self._mode)
+        draw.text((-left, -top), text, 255, self._font, anchor="ls", **self._shaping)
+        length = self._font.getlength(text, self._mode, **self._shaping)
         return Picture(np.array(image, np.uint8), left, top + self._ascent, length)
 
 
@@ -183,6 +214,9 @@ class ChainFace:
         pictures = list(self._runs(text))
         if len(pictures) == 1:
             return pictures[0]
+        first = self.faces[0][0]
+        if isinstance(first, FreeTypeFace) and first.is_from_the_right(text):
+            pictures.reverse()
         pen = 0.0
         placed = []
         for picture in pictures:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import functools
 import math
 import os
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from itertools import islice
 from typing import TYPE_CHECKING, Any
@@ -15,6 +16,8 @@ from paneldraw.text.faces import ChainFace, Face, FreeTypeFace, ScaledFace, Stri
 from paneldraw.text.strike import Strike, box
 
 if TYPE_CHECKING:
+    from typing import Literal
+
     import numpy as np
     from numpy.typing import NDArray
     from PIL import ImageFont
@@ -250,6 +253,48 @@ class Font:
         else:
             chain = ChainFace(((self._face, self.baseline + 1), *others), self._face.line(chr(NO_CHARACTER)))
         return replace(self, _face=chain, _glyphs=None)
+
+    def shaped(
+        self,
+        *,
+        direction: Literal["ltr", "rtl"] | None = None,
+        features: Sequence[str] | None = None,
+        language: str | None = None,
+    ) -> Font:
+        """Return the font with letters shaped as told, by Pillow's raqm; without it, letters stand side by side.
+
+        Hebrew and Arabic need not be told of where Pillow has raqm (``PIL.features.check("raqm")``, as pip's has): a
+        text that starts with one of their letters runs from the right.
+
+        Parameters
+        ----------
+        direction : {"ltr", "rtl"}, optional
+            Where each line runs, whatever it starts with.
+        features : sequence of str, optional
+            Of OpenType, by their four letters: ``["-kern"]`` switches one off, ``["smcp"]`` on.
+        language : str, optional
+            A language's tag, such as ``"sr"``, for fonts whose letters differ by it.
+
+        Raises
+        ------
+        ValueError
+            If the font has no outlines, there is no such direction, or Pillow is without raqm.
+        TypeError
+            If the features or the language are not strings.
+        """
+        if direction not in (None, "ltr", "rtl"):
+            raise ValueError(f"direction must be 'ltr' or 'rtl', not {direction!r}; that of text is a call's argument")
+        if isinstance(features, str) or not all(isinstance(name, str) for name in features or ()):
+            raise TypeError(f"features must be a sequence of strings, such as ['-kern'], not {features!r}")
+        if not (language is None or isinstance(language, str)):
+            raise TypeError(f"language must be a string, not {type(language).__name__}")
+        told = {"direction": direction, "features": None if features is None else list(features), "language": language}
+        shaping = {name: value for name, value in told.items() if value is not None}
+        chain = self._face
+        if not (isinstance(chain, ChainFace) and isinstance(chain.faces[0][0], FreeTypeFace)):
+            raise ValueError(f"only fonts with outlines are shaped, before they are scaled, and {self.name} is none")
+        faces = [(face.shaped(shaping) if isinstance(face, FreeTypeFace) else face, top) for face, top in chain.faces]
+        return replace(self, _face=ChainFace(faces, chain.missing))
 
     def scaled(self, factor: int) -> Font:
         """Return the font with each pixel a square of `factor` x `factor` pixels.
