@@ -259,6 +259,17 @@ def test_the_blocks_of_the_page_on_fonts_run():
     assert names["fb"].pixels[48:].any(axis=1).sum() > 8
 
 
+def test_the_blocks_of_the_page_on_text_run():
+    blocks = re.findall(r"^```python\n(.*?)^```$", (DOCS / "text.md").read_text(encoding="utf-8"), re.M | re.S)
+    assert len(blocks) == 5
+    names = {}
+    for block in blocks:
+        exec(block, names)
+    text = Framebuffer(128, 64)
+    text.text("0.42", 30, 0)
+    assert np.array_equal(names["fb"].pixels[:7, 30:60], text.pixels[:7, 30:60])
+
+
 def test_the_blocks_of_the_page_on_adding_a_chip_run():
     page = (DOCS / "add_a_chip.md").read_text(encoding="utf-8")
     excerpts = {found["code"] for found in examples._EXCERPT.finditer(page)}
