@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import re
+from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import example, given
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from paneldraw import Font, Framebuffer
-from paneldraw.text import Style, box, wrap
+from paneldraw.text import Style, box, render, wrap
 
 FONT = Font.builtin()
 WORDS = st.text("ab i-\u00ad\u00a0\u2011\u200b\t\n中。e\u0301(", max_size=40)
@@ -58,6 +59,15 @@ def test_no_character_is_lost_or_out_of_order(text, width, by):
         assert part.startswith(shown)
         assert shown == line.text or part[len(shown)] == "\u00ad"
         assert not part[len(shown) :].strip("\r\n\u00ad\u200b \t")
+
+
+@given(st.text(max_size=30), WIDTHS, st.sampled_from(["word", "letter", None]), st.booleans())
+def test_any_text_can_be_in_a_box(text, width, by, inverse):
+    fb = Framebuffer(64, 32)
+    with fb.clip(3, 3, 20, 20):
+        assert text.endswith(fb.text_box(text, 0, 0, width, 24, wrap=by, inverse=inverse, op="xor"))
+    fb.pixels[3:23, 3:23] = 0
+    assert not fb.pixels.any()
 
 
 @given(WORDS, WIDTHS, st.sampled_from(["word", "letter"]))
@@ -261,3 +271,32 @@ def test_a_box_of_no_size_that_can_be_is_refused():
         wrap("Hi", 0)
     with pytest.raises(TypeError, match="width must be a whole number, not float"):
         wrap("Hi", 9.5)
+
+
+OUTLINES = Path("/usr/share/fonts/truetype/dejavu")
+
+
+@pytest.mark.skipif(not OUTLINES.exists(), reason="DejaVu is not installed")
+@pytest.mark.parametrize("name", ["DejaVuSans.ttf", "DejaVuSerif-BoldItalic.ttf", "DejaVuSansMono.ttf"])
+@pytest.mark.parametrize("antialias", [False, True])
+@given(st.text("AVfij \u00adW-", max_size=30), st.integers(1, 90), st.sampled_from(["left", "center", "right"]))
+@settings(max_examples=25)
+def test_no_ink_of_an_outline_font_is_cut_where_lines_fit(name, antialias, text, width, align):
+    font = Font.load(OUTLINES / name, 13, antialias=antialias)
+    lines = wrap(text, width, font)
+    height = font.height * len(lines)
+    boxed, free = Framebuffer(300, height + 20, depth=4), Framebuffer(300, height + 20, depth=4)
+    assert boxed.text_box(text, 100, 10, width, height, font=font, align=align) == ""
+    widths = []
+    for number, line in enumerate(lines):
+        coverage, dx, _ = render(line, font)
+        left, right = min(dx, 0), dx + coverage.shape[1]
+        widths.append(right - left)
+        room = {"left": 0, "center": max(width - widths[-1], 0) // 2, "right": max(width - widths[-1], 0)}[align]
+        free.text(line, 100 + room - left, 10 + number * font.height, font=font)
+    assert all(one <= width or len(line) < 2 for one, line in zip(widths, lines, strict=True))
+    if max(widths) <= width:
+        rows = slice(10, 10 + height)
+        assert np.array_equal(boxed.pixels[rows], free.pixels[rows])
+    assert not boxed.pixels[:, :100].any()
+    assert not boxed.pixels[:, 100 + width :].any()
