@@ -72,7 +72,7 @@ def write_box(coverage, s, x, y, w, h, font, style, inverse):
     top: cython.longlong = near_pixel("y", y)
     width: cython.longlong = min(extent("w", w, 1), 1 << 30)
     height: cython.longlong = min(extent("h", h, 1), 1 << 30)
-    picture, rest = paneldraw.text.boxed(s, width, height, font, paneldraw.text.Style(*style))
+    picture, rest = paneldraw.text.boxed(s, width, height, font, paneldraw.text.BoxStyle(*style))
     if not inverse:
         _stamp(coverage, picture.ink, left + picture.left, top + picture.top, False)
         return rest

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from paneldraw.text.box import Style as Style
+from paneldraw.text.box import BoxStyle as BoxStyle
 from paneldraw.text.box import boxed as boxed
 from paneldraw.text.box import within as within
 from paneldraw.text.box import wrap

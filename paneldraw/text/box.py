@@ -54,7 +54,7 @@ class Line(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Style:
+class BoxStyle:
     """How text is set in a box; see `Framebuffer.text_box`."""
 
     align: Align = "left"
@@ -249,7 +249,7 @@ def _reach(picture: Picture) -> tuple[int, int]:
     return min(0, picture.left), max(math.ceil(picture.advance), picture.left + picture.ink.shape[1])
 
 
-def chosen(text: str, width: int, height: int, font: Font, style: Style) -> tuple[list[str], str]:
+def chosen(text: str, width: int, height: int, font: Font, style: BoxStyle) -> tuple[list[str], str]:
     """Return the lines of a text that a box of so many pixels holds, and the rest of the text."""
     room = max(height + style.line_spacing, 0) // (font.height + style.line_spacing)
     lines = list(islice(lines_of(text, width, font, style.wrap), room))
@@ -265,7 +265,7 @@ def chosen(text: str, width: int, height: int, font: Font, style: Style) -> tupl
     return [line.text for line in (*lines, last)], rest if rest.strip() else ""
 
 
-def _cut(text: str, line: Line, width: int, font: Font, style: Style, goes_on: bool) -> Line:
+def _cut(text: str, line: Line, width: int, font: Font, style: BoxStyle, goes_on: bool) -> Line:
     """The line with the ellipsis at its end, if it is too wide or the text goes on behind it."""
     end, behind = _end_of_line(text, line.start)
     if not goes_on and _some_letters(text, line.start, end, width, font) >= end:
@@ -285,7 +285,7 @@ def _cut(text: str, line: Line, width: int, font: Font, style: Style, goes_on: b
     return Line(shown, line.start, _line_until(text, line.start, place, end).end)
 
 
-def boxed(text: str, width: int, height: int, font: Font | None, style: Style) -> tuple[Picture, str]:
+def boxed(text: str, width: int, height: int, font: Font | None, style: BoxStyle) -> tuple[Picture, str]:
     """Return what a text covers in a box, from the box's top-left corner, and the rest that it does not hold."""
     font = font_of(font)
     split_lines(text)

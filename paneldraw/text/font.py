@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 NO_CHARACTER = 0x10FFFF
 """What no font has a picture of."""
 
-LARGEST_SPACING = 65536
+LARGEST_SPACING = 1000
 """Rows; more than any panel has."""
 
 TAB = 4

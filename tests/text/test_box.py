@@ -11,7 +11,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from paneldraw import Font, Framebuffer
-from paneldraw.text import Style, box, render, wrap
+from paneldraw.text import BoxStyle, box, render, wrap
 
 FONT = Font.builtin()
 WORDS = st.text("ab i-\u00ad\u00a0\u2011\u200b\t\n中。e\u0301(", max_size=40)
@@ -79,7 +79,7 @@ def test_no_line_is_wider_than_the_box_unless_one_letter_is(text, width, by):
 
 @given(WORDS, WIDTHS, st.integers(0, 40), st.sampled_from(["word", "letter"]), st.sampled_from(["…", "", ">>"]))
 def test_what_a_box_holds_and_the_rest_are_the_text(text, width, height, by, ellipsis):
-    style = Style(wrap=by, ellipsis=ellipsis)
+    style = BoxStyle(wrap=by, ellipsis=ellipsis)
     lines, rest = box.chosen(text, width, height, FONT, style)
     assert len(lines) <= height // 8
     assert text.endswith(rest)
@@ -167,7 +167,7 @@ def test_lines_of_letters_and_lines_as_they_are():
 
 
 def cut(text, count, rows, **how):
-    return box.chosen(text, columns(count), 8 * rows, FONT, Style(**how))
+    return box.chosen(text, columns(count), 8 * rows, FONT, BoxStyle(**how))
 
 
 def test_an_ellipsis_is_there_only_where_text_is_cut():
@@ -193,7 +193,7 @@ def test_an_ellipsis_that_the_font_lacks_is_three_dots():
 
     pictures = {code: FONT._face.strike.pictures[code] for code in range(0x20, 0x7F)}
     plain = of_strike(Strike("ascii", 7, 1, pictures, 1, True))
-    assert box.chosen("abcdefgh", columns(6), 8, plain, Style())[0] == ["abc..."]
+    assert box.chosen("abcdefgh", columns(6), 8, plain, BoxStyle())[0] == ["abc..."]
 
 
 def test_pages_of_a_text_are_read_one_after_the_other():
