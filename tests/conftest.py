@@ -5,6 +5,7 @@ from __future__ import annotations
 import importlib
 import os
 import shutil
+import signal
 import sys
 from contextlib import contextmanager
 from functools import partial
@@ -16,6 +17,12 @@ from hypothesis import HealthCheck, settings
 from running import forked, started
 
 import paneldraw
+
+# A run in the background or under nohup ignores these; the programs that tests start would ignore them too.
+for name, usual in (("SIGINT", signal.default_int_handler), ("SIGHUP", signal.SIG_DFL)):
+    number = getattr(signal, name, None)
+    if number is not None and signal.getsignal(number) is signal.SIG_IGN:
+        signal.signal(number, usual)
 
 # No deadline: a test never times. The fixtures here hold nothing that an example could change.
 # CI takes the same examples every time, so that a change is judged by what it changed; elsewhere they are always new.

@@ -489,8 +489,7 @@ def test_command_line(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
 
 
 def test_command_line_on_spi(monkeypatch: pytest.MonkeyPatch) -> None:
-    import spidev
-
+    spidev = pytest.importorskip("spidev")
     chips = {"ssd1322": simulator.SSD1322(256, 64), "pcd8544": simulator.PCD8544(), "max7219": simulator.MAX7219(8, 8)}
     for name, chip in chips.items():
         lines: dict[str, Any] = {"dc": None, "reset": None} if name == "max7219" else {}

@@ -527,6 +527,8 @@ def ran(rig, script, **environment):
 )
 def test_programs_of_others_run_unchanged(url, script, package, picture):
     pytest.importorskip(package)
+    if url.startswith("spi"):
+        pytest.importorskip("spidev")
     with Rig([url]) as rig:
         ran(rig, script, **BLINKA)
         [panel] = rig.panels

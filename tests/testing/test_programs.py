@@ -84,6 +84,7 @@ THREE = ["i2c://1/0x3c?chip=ssd1306", "spi://0.0?chip=ssd1322&dc=24&reset=25", "
 
 @pytest.mark.parametrize("sim_run", [THREE], indirect=True)
 def test_several_panels(sim_run, script):
+    pytest.importorskip("spidev")
     done = sim_run(script(BOTH))
     assert done.returncode == 0, done.stderr
     assert [panel.name for panel in done.panels] == ["ssd1306", "ssd1322", "ssd1327"]
