@@ -25,6 +25,9 @@ if TYPE_CHECKING:
 NO_CHARACTER = 0x10FFFF
 """What no font has a picture of."""
 
+_MOST_EMS = 16
+"""A line of a font is at most so many times as high as its em; what says more is damaged."""
+
 LARGEST_SPACING = 1000
 """Rows; more than any panel has."""
 
@@ -414,6 +417,8 @@ def outline(font: ImageFont.FreeTypeFont, name: str | None, antialias: bool) -> 
     from paneldraw.text.outline import characters_of
 
     ascent, descent = font.getmetrics()
+    if not 0 < ascent + descent <= _MOST_EMS * font.size:
+        raise OSError(f"its lines would be {ascent + descent} rows high")
     face = FreeTypeFace(font, characters_of(font), antialias)
     like = font.getbbox("H", "1", anchor="ls")
     frame = box(int(like[2]) - 1, -int(like[1]), ascent)

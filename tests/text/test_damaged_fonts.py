@@ -146,3 +146,14 @@ def test_a_table_of_characters_of_any_bytes(data):
     has = characters_of(outline)
     assert has(0x41) in (True, False)
     assert has(0x10FFFF) in (True, False)
+
+
+@pytest.mark.parametrize("ascent", [-400, 30000])
+def test_lines_that_cannot_be_that_high(tmp_path, ascent):
+    data = bytearray(WHOLE[".ttf"])
+    at = int.from_bytes(data[data.index(b"hhea") + 8 :][:4], "big") + 4
+    data[at : at + 4] = (ascent & 0xFFFF).to_bytes(2, "big") + b"\0\0"
+    path = tmp_path / "high.ttf"
+    path.write_bytes(bytes(data))
+    with pytest.raises(OSError, match=r"its lines would be -?\d+ rows high"):
+        Font.load(path, 10)
