@@ -26,7 +26,10 @@ def run(*arguments):
     return subprocess.run(command, capture_output=True, text=True)
 
 
-@pytest.mark.parametrize("group", GROUPS)
+# Each of its sessions is a process of its own.
+@pytest.mark.parametrize(
+    "group", [pytest.param(group, marks=pytest.mark.thorough) if group == "plugin" else group for group in GROUPS]
+)
 def test_a_group_runs(group):
     done = run("--rounds", "1", "--once", group)
     assert done.returncode == 0, done.stderr
