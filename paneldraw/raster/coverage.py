@@ -351,7 +351,7 @@ class Coverage:
         bits: cython.int
         left: cython.longlong = self.surface.left
         before: cython.p_ulonglong = counts_before(self.n)
-        whole: cython.ulonglong = self.full * _ONES
+        whole: cython.ulonglong = cython.cast(cython.ulonglong, self.full) * _ONES
         # Behind all edges so far, and up to where they change something.
         behind: cython.ulonglong = 0
         covered: cython.ulonglong = 0

@@ -103,7 +103,7 @@ class Glyphs:
 
     def advance(self, text):
         """Columns from the pen at the start of a line to the pen at its end."""
-        columns: cython.longlong = 0
+        columns: cython.Py_ssize_t = 0
         k: cython.int
         character: cython.Py_UCS4
         for character in text:
