@@ -31,7 +31,7 @@ COMMON = settings(
     suppress_health_check=[HealthCheck.function_scoped_fixture],
     derandomize=bool(os.environ.get("CI")),
 )
-settings.register_profile("quick", COMMON, max_examples=10)
+settings.register_profile("quick", COMMON, max_examples=6)
 settings.register_profile("thorough", COMMON, max_examples=50)
 settings.load_profile("quick")  # unless --hypothesis-profile names another
 

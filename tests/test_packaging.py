@@ -159,6 +159,7 @@ fb.lien(0, 0, 7, 7)
 """
 
 
+@pytest.mark.thorough
 def test_a_users_type_checker_knows_the_types(wheel, tmp_path):
     wheel.extractall(tmp_path / "installed")
     (tmp_path / "user.py").write_text(USER, encoding="utf-8")

@@ -56,6 +56,7 @@ def test_the_tests_of_the_page_pass(folder):
     assert f"{tests} passed" in done.stdout
 
 
+@pytest.mark.thorough
 def test_a_changed_script_fails_as_the_page_says(folder, tmp_path):
     (tmp_path / "test_station.py").write_text(FILES["test_station.py"], encoding="utf-8")
     (tmp_path / "golden").symlink_to(folder / "golden")
@@ -69,6 +70,7 @@ def test_a_changed_script_fails_as_the_page_says(folder, tmp_path):
     assert said[-1] == "if what was shown is right: pytest --update-frames test_station.py::test_the_day_is_shown"
 
 
+@pytest.mark.thorough
 def test_the_settings_are_known(folder, tmp_path):
     (settings,) = (code for kind, code in BLOCKS if kind == "toml")
     (tmp_path / "pyproject.toml").write_text(settings + 'addopts = ["--strict-config"]\n', encoding="utf-8")
@@ -88,6 +90,7 @@ def test_it(sim_panel: SimPanel) -> None:
 """
 
 
+@pytest.mark.thorough
 def test_the_page_is_typed(folder):
     (folder / "wrong.py").write_text(WRONG, encoding="utf-8")
     typed = [*(name for name in FILES if name != "station.py"), "wrong.py"]
