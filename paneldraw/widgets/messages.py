@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from bisect import bisect_right
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
+from paneldraw import text
 from paneldraw.widgets.widget import Widget, finite, fitted, share_of, width_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from paneldraw import Font, Framebuffer
+    from paneldraw import Framebuffer
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -92,16 +92,9 @@ class Marquee(Widget):
         return width_of(self.text, self._font), self._font.height
 
     def _paint(self, fb: Framebuffer, c: int) -> None:
-        across, font = width_of(self.text, self._font), self._font
-        y = (fb.height - font.height) // 2
-        if across <= fb.width:
-            fb.text(self.text, 0, y, c, font=font)
-            return
-        period = across + max(self.gap, 1)
-        x = -int(finite(self.t * self.speed) % period)
-        fb.text(self.text, x, y, c, font=font)
-        if x + period < fb.width:
-            fb.text(self.text, x + period, y, c, font=font)
+        font = self._font
+        line = text.Marquee(self.text, fb.width, font=font, speed=1, pause=0, gap=max(self.gap, 1))
+        line.draw(fb, 0, (fb.height - font.height) // 2, c, t=finite(self.t * self.speed))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -140,20 +133,9 @@ class Log(Widget):
         back = max(self.back, 0)
         rows: list[str] = []
         for line in reversed(self.lines):
-            rows[:0] = [row for part in line.split("\n") for row in _rows(part, fb.width, font)]
+            rows[:0] = text.wrap(line, fb.width, font)
             if len(rows) >= wanted + back:
                 break
         end = max(len(rows) - back, min(wanted, len(rows)))
         for number, row in enumerate(rows[max(end - wanted, 0) : end]):
             fb.text(row, 0, number * font.height, c, font=font)
-
-
-def _rows(line: str, width: int, font: Font) -> list[str]:
-    """A line in pieces that fit, ended after a word where there is one."""
-    rows = []
-    while width_of(line, font) > width and len(line) > 1:
-        end = bisect_right(range(1, len(line)), width, key=lambda length: width_of(line[:length], font)) or 1
-        space = line.rfind(" ", 1, end + 1)
-        rows.append(line[: space if space > 0 else end])
-        line = line[space + 1 if space > 0 else end :]
-    return [*rows, line]

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 from paneldraw import Framebuffer, Supersample
 from paneldraw.text import Font, font_of
+from paneldraw.text.box import BoxStyle, chosen
 
 if TYPE_CHECKING:
     from paneldraw.framebuffer.arguments import Antialias
@@ -133,14 +134,7 @@ def fitted(text: str, width: int, font: Font) -> str:
     """A line of text, cut and ended with an ellipsis where it is wider than `width`."""
     if width_of(text, font) <= width:
         return text
-    longest, too_long = 0, len(text)
-    while too_long - longest > 1:
-        middle = (longest + too_long) // 2
-        if width_of(text[:middle] + "…", font) <= width:
-            longest = middle
-        else:
-            too_long = middle
-    return text[:longest].rstrip() + "…" if longest else text[:1]
+    return chosen(text, max(width, 1), font.height, font, BoxStyle(wrap=None))[0][0]
 
 
 def largest(text: str, width: int, height: int, font: Font) -> Font:
