@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from paneldraw import _compiled
+from paneldraw._later import importer
 
 if not _compiled.COMPILED:
     from paneldraw import _interpreted
@@ -34,15 +35,8 @@ _LATER = {
 }
 
 if not TYPE_CHECKING:
-
-    def __getattr__(name: str) -> object:
-        """Import a part, and numpy with it, where somebody asks for it: every pytest session imports this package."""
-        if name not in _LATER:
-            raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-        import importlib
-
-        globals()[name] = getattr(importlib.import_module(f"{__name__}.{_LATER[name]}"), name)
-        return globals()[name]
+    # With them comes numpy, and every pytest session imports this package.
+    __getattr__ = importer(__name__, _LATER)
 
 
 def __dir__() -> list[str]:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from importlib import import_module
 from typing import TYPE_CHECKING
+
+from paneldraw._later import importer
 
 from .bus import I2CBus, Multiplexer
 from .frames import Frame
@@ -95,9 +96,5 @@ _LATER = {
     for name in names
 }
 
-
-def __getattr__(name: str) -> object:
-    """Import what is in `_LATER`."""
-    if name in _LATER:
-        return getattr(import_module(f".{_LATER[name]}", __name__), name)
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+if not TYPE_CHECKING:
+    __getattr__ = importer(__name__, _LATER)

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from paneldraw._later import importer
+
 if TYPE_CHECKING:
     from paneldraw.testing.golden import assert_frame
     from paneldraw.testing.panels import SerialPanel, SimPanel
@@ -35,14 +37,8 @@ _LATER = {
 }
 
 if not TYPE_CHECKING:
-
-    def __getattr__(name: str) -> object:
-        """Import a part where somebody asks for it: every pytest session imports this package."""
-        if name not in _LATER:
-            raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-        import importlib
-
-        return getattr(importlib.import_module(f"{__name__}.{_LATER[name]}"), name)
+    # Every pytest session imports this package.
+    __getattr__ = importer(__name__, _LATER)
 
 
 def __dir__() -> list[str]:
