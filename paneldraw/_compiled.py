@@ -20,6 +20,7 @@ MODULES = (
     "paneldraw.raster.disc",
     "paneldraw.raster.polygon",
     "paneldraw.raster.stroke",
+    "paneldraw.raster.bezier",
     "paneldraw.framebuffer.arguments",
     "paneldraw.framebuffer.painter",
     "paneldraw.framebuffer.copying",

@@ -416,6 +416,118 @@ class Framebuffer:
         """
         self.painter.path("points", points, closed, self.painter.style(c, op, width, antialias, cap, join, dash))
 
+    def bezier(
+        self,
+        points: ArrayLike,
+        c: int | None = None,
+        *,
+        closed: bool = False,
+        width: int | float = 1,
+        cap: str = "square",
+        join: str = "miter",
+        dash: Iterable[int | float] | None = None,
+        antialias: AntialiasOrDefault = ...,
+        op: str = "over",
+    ) -> None:
+        """Draw a Bézier curve, quadratic or cubic, or cubic ones in a chain.
+
+        Aliased and of width 1, it has in each column the pixel nearest to the true curve, where that is nearer to the
+        horizontal, else in each row, and those nearest to the points that it goes through. Wider or anti-aliased, it is
+        the stroke along chords within a quarter of a 256th of a pixel of the true curve.
+
+        Parameters
+        ----------
+        points : array_like
+            Three points are a quadratic curve's: where it begins, its control point, where it ends. Four are a cubic
+            one's, with two control points. 7, 10, ... are cubic ones in a chain, where each begins at the end of the
+            one before. One point is a line of no length; none draws nothing.
+        c : int, optional
+        closed : bool, default False
+            Whether a line leads from the end back to the beginning, if that is elsewhere.
+        width, cap, dash, antialias, op
+            As for `line`. An aliased curve of width 1 counts pixels of the dash pattern.
+        join : {"miter", "round", "bevel"}
+            As for `polyline`; where pieces of a chain meet at an angle, and at cusps.
+
+        Raises
+        ------
+        ValueError
+            If `points` are not so many points, and as for `polyline`.
+
+        Notes
+        -----
+        P. de Casteljau's midpoints halve a curve until its chords are flat: G. Farin, "Curves and Surfaces for CAGD",
+        5th ed. (2002), chapter 4.
+
+        Examples
+        --------
+        >>> from paneldraw import Framebuffer
+        >>> fb = Framebuffer(12, 6)
+        >>> fb.bezier([(0, 5), (2, -4), (9, 10), (11, 0)])
+        >>> print(fb)
+        ...........#
+        ...........#
+        ..###.....#.
+        .#...##...#.
+        #......###..
+        #...........
+        """
+        self.painter.curve(points, closed, self.painter.style(c, op, width, antialias, cap, join, dash))
+
+    def curve(
+        self,
+        points: ArrayLike,
+        c: int | None = None,
+        *,
+        closed: bool = False,
+        width: int | float = 1,
+        cap: str = "square",
+        join: str = "miter",
+        dash: Iterable[int | float] | None = None,
+        antialias: AntialiasOrDefault = ...,
+        op: str = "over",
+    ) -> None:
+        """Draw a smooth curve through points.
+
+        It is the centripetal Catmull-Rom curve, which never makes a loop or cusp between two points, drawn as `bezier`
+        draws. Through two points it is a line.
+
+        Parameters
+        ----------
+        points : array_like
+            Shape (n, 2), or x and y in turn. A point that repeats the one before counts once.
+        c : int, optional
+        closed : bool, default False
+            Whether the curve goes on from the last point to the first.
+        width, cap, join, dash, antialias, op
+            As for `bezier`.
+
+        Raises
+        ------
+        ValueError
+            If `points` are not points, and as for `polyline`.
+
+        Notes
+        -----
+        E. Catmull and R. Rom, "A class of local interpolating splines", in Computer Aided Geometric Design (1974),
+        317-326; C. Yuksel, S. Schaefer and J. Keyser, "Parameterization and applications of Catmull-Rom curves",
+        Computer-Aided Design 43 (2011), 747-755.
+
+        Examples
+        --------
+        >>> from paneldraw import Framebuffer
+        >>> fb = Framebuffer(13, 6)
+        >>> fb.curve([(0, 5), (3, 0), (8, 5), (12, 2)])
+        >>> print(fb)
+        ...#.........
+        ..#.#........
+        .#...#......#
+        .#....#....#.
+        .#.....#..#..
+        #.......##...
+        """
+        self.painter.smooth(points, closed, self.painter.style(c, op, width, antialias, cap, join, dash))
+
     def triangle(
         self,
         x1: int | float,

@@ -1,4 +1,5 @@
 from paneldraw.framebuffer.arguments cimport Numbers
+from paneldraw.raster.bezier cimport Path
 from paneldraw.raster.coverage cimport Coverage
 from paneldraw.raster.disc cimport Part
 from paneldraw.raster.stroke cimport Contours
@@ -33,6 +34,8 @@ cdef class Painter:
     cdef object segments(self, Numbers numbers, Style style, bint dda)
     cdef object segment(self, long long x1, long long y1, long long x2, long long y2, Style style, bint dda)
     cdef object path(self, str name, object points, bint closed, Style style)
+    cdef object curve(self, object points, bint closed, Style style)
+    cdef object smooth(self, object points, bint closed, Style style)
     cdef object triangle(
         self, object x1, object y1, object x2, object y2, object x3, object y3, bint fill, bint covered, Style style
     )
@@ -54,6 +57,9 @@ cdef class Painter:
     cdef object _add_stroke(
         self, double *points, Py_ssize_t count, bint closed, Style style, double distance, tuple circle
     )
+    cdef object _chain(self, object controls, bint closed, Style style)
+    cdef Path _new_path(self, Style style)
+    cdef object _smooth_path(self, Path path, bint closed, Style style)
     cdef object _fill_contours(self, Style style, bint nonzero)
     cdef object _fill(
         self, Surface surface, long long *points, Py_ssize_t count, bint nonzero, object antialias
@@ -71,6 +77,7 @@ cdef class Painter:
     cdef object _far_line(self, object ends, Style style, bint dda)
     cdef object _far_thin_path(self, Surface surface, object points, bint closed, object dash, bint dda)
     cdef object _far_path(self, object points, bint closed, Style style)
+    cdef object _far_curve(self, object controls, bint closed, Style style)
     cdef object _far_fill(self, object shape, bint nonzero, Style style)
     cdef object _far_outlines(self, object paths, bint closed, bint fill, bint nonzero, Style style)
     cdef object _far_box(self, object box, object a, object b, bint sharp, bint fill, Style style)

@@ -22,6 +22,7 @@ from cython.cimports.paneldraw.framebuffer.arguments import (
     points_of,
     quick,
 )
+from cython.cimports.paneldraw.raster.bezier import Path, chain, through, walk
 from cython.cimports.paneldraw.raster.blit import block
 from cython.cimports.paneldraw.raster.circle import arc, circle, ellipse, round_rect, sector
 from cython.cimports.paneldraw.raster.circle import disc as thin_disc
@@ -327,6 +328,63 @@ class Painter:
             count += 1
         stroke.dashes(points, count, closed, cap, style.dash, distance)
 
+    def curve(self, points, closed, style):
+        """Draw the Bézier curves that these control points have."""
+        numbers: Numbers = points_of("points", points, 256)
+        if numbers.count and numbers.count != 3 and numbers.count % 3 != 1:
+            raise ValueError(
+                f"points must be 3, of a quadratic curve, or 4, 7, 10, ... of cubic ones, not {numbers.count}"
+            )
+        if numbers.count < 2:
+            self.path("points", points, False, style)
+        elif numbers.exact is not None:
+            self._far_curve(outline.chain(numbers.exact), closed, style)
+        else:
+            self._chain(chain(numbers.values, numbers.count), closed, style)
+
+    def smooth(self, points, closed, style):
+        """Draw the smooth curve through points."""
+        numbers: Numbers = points_of("points", points, 256)
+        if numbers.exact is not None:
+            self._far_curve(outline.through(clip.pairs(numbers.exact), closed), closed, style)
+            return
+        memory = bytearray(16 * (numbers.count + 1))
+        to: cython.p_double = doubles(memory, 0)
+        count: cython.Py_ssize_t = distinct(numbers.values, numbers.count, to)
+        if closed and count > 1 and to[0] == to[2 * count - 2] and to[1] == to[2 * count - 1]:
+            count -= 1
+        if count > 2:
+            self._chain(through(to, count, closed), closed, style)
+        else:
+            self.path("points", points, closed, style)
+
+    def _chain(self, controls, closed, style):
+        """Draw the pieces that these control points have, near by."""
+        p: cython.p_double = doubles(controls, 0)
+        last: cython.Py_ssize_t = len(controls) // 8 - 2
+        path: Path = self._new_path(style)
+        if style.thin:
+            walk(self.surface, path, controls, closed, _in_steps(style.dash))
+        else:
+            path.pieces(p, last // 6)
+            self._smooth_path(path, closed, style)
+
+    def _new_path(self, style):
+        """A path that leaves out what cannot be seen."""
+        if style.dash is not None:
+            return Path(1, 0, not style.thin)
+        beyond: cython.longlong = clip.MARGIN + 2 * style.width
+        return Path(-beyond, 256 * max(self.surface.width, self.surface.height) + beyond, not style.thin)
+
+    def _smooth_path(self, path, closed, style):
+        """Draw the stroke of a path."""
+        count: cython.Py_ssize_t = path.count
+        if closed and count > 1 and path.ends_where_it_begins():
+            count -= 1
+        self.contours.begin()
+        self._add_stroke(path.points, count, closed and count > 2, style, 0, None)
+        self._fill_contours(style, True)
+
     def _fill_contours(self, style, nonzero):
         """Fill the contours that are collected."""
         contours: Contours = self.contours
@@ -533,6 +591,10 @@ class Painter:
             self._add_piece(int64s(memory), len(piece) // 2, closed and is_whole, style, distance % period, False)
         self._fill_contours(style, True)
 
+    def _far_curve(self, controls, closed, style):
+        """Draw Bézier curves with control points at any distance."""
+        self._far_outlines([outline.curve(controls)], closed, False, True, style)
+
     def _far_fill(self, shape, nonzero, style):
         """Fill contours with corners at any distance, in 256ths."""
         contours: Contours = self.contours
@@ -592,6 +654,11 @@ class Painter:
             elif style.cap != _BUTT:
                 shape += outline.arc_caps(x, y, r, turns, half, style.cap == _ROUND)
             self._far_fill(shape, True, style)
+
+
+def _in_steps(dash):
+    """The lengths of a dash pattern in whole pixels."""
+    return list(array("q", dash_steps(dash)))
 
 
 def _in_256ths(names):

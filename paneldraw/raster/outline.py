@@ -6,7 +6,7 @@ rule. Curves are chords that are within a sixteenth of a pixel of them, where th
 
 from __future__ import annotations
 
-from itertools import pairwise
+from itertools import groupby, pairwise
 from math import isqrt
 
 from paneldraw.raster.clip import is_outside, pairs
@@ -15,6 +15,9 @@ from paneldraw.raster.clip import is_outside, pairs
 _FLAT = 16
 
 _HALF_PIXEL = 128
+
+# The bits of a fraction with which pieces of curves are halved.
+_FINE = 16
 
 # A quarter turn clockwise, from quadrant to quadrant, and the bit that each has in a choice of them.
 _AXES = ((1, 0), (0, 1), (-1, 0), (0, -1), (1, 0))
@@ -94,6 +97,74 @@ def slice_of_disc(x: int, y: int, r: int, turns: list[Vector]) -> list[Contour]:
 def slice_of_ring(x: int, y: int, r: int, turns: list[Vector], half: int) -> list[Contour]:
     """Return an arc drawn with `half` a width on either side."""
     return [_between(arc(x, y, r + half, turns), arc(x, y, r - half, turns) if r > half else [x, y])]
+
+
+def curve(controls: Contour) -> Contour:
+    """Return points along a chain of cubic Bézier pieces, each piece's last control point the first of the next."""
+    points = controls[:2]
+    open_pieces = [[number << _FINE for number in controls[i : i + 8]] for i in range(0, len(controls) - 2, 6)][::-1]
+    while open_pieces:
+        piece = open_pieces.pop()
+        rise = max(abs(piece[i] - 2 * piece[i + 2] + piece[i + 4]) for i in range(4)) >> _FINE
+        xs, ys = [number >> _FINE for number in piece[::2]], [number >> _FINE for number in piece[1::2]]
+        if rise <= _FLAT or is_outside((min(xs), min(ys), max(xs), max(ys))):
+            points += xs[3], ys[3]
+        else:
+            open_pieces += _halves(piece)[::-1]
+    return points
+
+
+def chain(points: Contour) -> Contour:
+    """Return the control points of cubic pieces: of one quadratic piece, given by three points, or of themselves."""
+    if len(points) != 6:
+        return points
+    (x1, y1), (x2, y2), (x3, y3) = pairs(points)
+    return [x1, y1, (x1 + 2 * x2) // 3, (y1 + 2 * y2) // 3, (x3 + 2 * x2) // 3, (y3 + 2 * y2) // 3, x3, y3]
+
+
+def through(points: list[Vector], closed: bool) -> Contour:
+    """Return the control points of the smooth curve through points, as `paneldraw.raster.bezier` has it."""
+    points = [point for point, _ in groupby(points)]
+    closed = closed and len(points) > 2
+    if closed:
+        points = points[:-1] if points[0] == points[-1] else points
+        points = [points[-1], *points, *points[:2]]
+    elif len(points) > 1:
+        points = [_mirrored(points[1], points[0]), *points, _mirrored(points[-2], points[-1])]
+    else:
+        points *= 4
+    # The root of each distance, in 2**-32 of one of a 256th.
+    knots = [isqrt(isqrt((c - a) ** 2 + (d - b) ** 2 << 128)) for (a, b), (c, d) in pairwise(points)]
+    controls = [*points[1]]
+    for i in range(len(points) - 3):
+        before, start, end, behind = points[i : i + 4]
+        controls += _handle(before, start, end, knots[i], knots[i + 1])
+        controls += _handle(behind, end, start, knots[i + 2], knots[i + 1])
+        controls += end
+    return controls
+
+
+def _handle(before: Vector, at: Vector, to: Vector, d1: int, d2: int) -> Vector:
+    """The control point next to `at` toward `to`, where the knots on either side are d1 and d2 away."""
+    if d1 == 0:
+        return at
+    middle = 2 * d1 * d1 + 3 * d1 * d2 + d2 * d2
+    weight = 3 * d1 * (d1 + d2)
+    x, y = ((d1 * d1 * to[k] - d2 * d2 * before[k] + middle * at[k]) // weight for k in (0, 1))
+    return x, y
+
+
+def _mirrored(point: Vector, at: Vector) -> Vector:
+    return 2 * at[0] - point[0], 2 * at[1] - point[1]
+
+
+def _halves(piece: Contour) -> list[Contour]:
+    """De Casteljau's midpoints: the control points of either half."""
+    rows = [piece]
+    while len(rows[-1]) > 2:
+        rows.append([(a + b) // 2 for a, b in zip(rows[-1], rows[-1][2:], strict=False)])
+    first = [number for row in rows for number in row[:2]]
+    return [first, [number for row in reversed(rows) for number in row[-2:]]]
 
 
 def arc_caps(x: int, y: int, r: int, turns: list[Vector], half: int, is_round: bool) -> list[Contour]:

@@ -46,7 +46,7 @@ def polygon(corners, rule, n=1, reference="center", size=(WIDTH, HEIGHT)):
 
 def far_polygon(corners, rule, n, reference, size=(WIDTH, HEIGHT)):
     """The least and the largest counts of a polygon whose edges may lie up to a 512th of a pixel off."""
-    xs, ys = _lattice(n, reference, size)
+    xs, ys = lattice(n, reference, size)
     winding = np.zeros((size[1] * n, size[0] * n), int)
     near = np.zeros_like(winding, bool)
     points = [(nearest(Fraction(x) * 256) * 2 * n, nearest(Fraction(y) * 256) * 2 * n) for x, y in corners]
@@ -60,7 +60,7 @@ def far_polygon(corners, rule, n, reference, size=(WIDTH, HEIGHT)):
     return per_pixel(inside & ~near, n), per_pixel(inside | near, n)
 
 
-def _lattice(n, reference, size):
+def lattice(n, reference, size):
     return reference_points(size[0], n, reference)[None, :], reference_points(size[1], n, reference)[:, None]
 
 
@@ -70,7 +70,7 @@ def _lattice(n, reference, size):
 
 def stroke_bounds(pieces, n, reference, size=(WIDTH, HEIGHT), tolerance=ROUNDING):
     """The least and the largest counts of a union of pieces whose boundary may lie up to `tolerance` off."""
-    xs, ys = (axis.astype(float) / (512 * n) for axis in _lattice(n, reference, size))
+    xs, ys = (axis.astype(float) / (512 * n) for axis in lattice(n, reference, size))
     surely = np.ones((size[1] * n, size[0] * n), bool)
     perhaps = np.zeros_like(surely)
     ring = [(np.cos(turn), np.sin(turn)) for turn in np.arange(12) * (np.pi / 6)]
