@@ -21,6 +21,7 @@ MODULES = (
     "paneldraw.raster.polygon",
     "paneldraw.raster.stroke",
     "paneldraw.raster.bezier",
+    "paneldraw.raster.flood",
     "paneldraw.framebuffer.arguments",
     "paneldraw.framebuffer.painter",
     "paneldraw.framebuffer.copying",

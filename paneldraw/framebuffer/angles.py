@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from math import cos, hypot, nextafter, radians, sin
+from math import atan2, cos, degrees, hypot, nextafter, radians, sin, tan
 
 _EXACT = 1 << 53
 _NEARLY = nextafter(360, 0)
@@ -31,6 +31,42 @@ def direction(angle: float, unit: int) -> Vector:
     for _ in range(quarters % 4):
         x, y = -y, x
     return x, y
+
+
+def on_ellipse(angle: float, a: float, b: float) -> float:
+    """The angle by which an ellipse with the radii a and b is written that has a point in the direction of another."""
+    x, y = b * cos(radians(angle)), a * sin(radians(angle))
+    if x == y == 0 or angle % 90 == 0:
+        return angle
+    own = degrees(atan2(y, x))
+    return own + 360 * round((angle - own) / 360)
+
+
+def turned_box(box: list[int], angle: float) -> list[float]:
+    """The corners, x and y in turn, of a box (x, y, w, h) turned around its center; it in 256ths, they in pixels."""
+    x, y, w, h = box
+    unit = 1 << 60
+    ux, uy = direction(angle, unit)
+    corners = []
+    for dx, dy in ((-w, -h), (w, -h), (w, h), (-w, h)):
+        corners += [2 * x + w + (dx * ux - dy * uy) // unit, 2 * y + h + (dx * uy + dy * ux) // unit]
+    return [number / 512 if abs(number) < _EXACT else number >> 9 for number in corners]
+
+
+def turned_ellipse(x: int, y: int, a: int, b: int, turn: tuple[float, float, float]) -> list[int]:
+    """The control points of cubic Bézier pieces of an ellipse of any size: its own angle, and as `Path.ellipse`."""
+    angle, start, swept = turn
+    unit = 1 << 60
+    pieces = 128
+    reach = round(4 / 3 * tan(radians(swept) / pieces / 4) * unit)
+    ux, uy = direction(angle, unit)
+    controls: list[int] = []
+    for k in range(pieces + 1):
+        c, s = direction(start + swept * k / pieces, unit)
+        for side in (-1, 0, 1):
+            dx, dy = a * (c - side * reach * s // unit), b * (s + side * reach * c // unit)
+            controls += [x + (dx * ux - dy * uy) // unit**2, y + (dx * uy + dy * ux) // unit**2]
+    return controls[2:-2]
 
 
 def is_reflex(start: Vector, end: Vector, swept: float) -> bool:

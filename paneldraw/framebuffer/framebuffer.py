@@ -26,6 +26,7 @@ from cython.cimports.paneldraw.raster.surface import Surface
 
 from paneldraw._signatures import SignatureOfInit
 from paneldraw.framebuffer import pictures
+from paneldraw.framebuffer.alignment import aligned_box, aligned_radius, outward
 from paneldraw.framebuffer.angles import sweep
 from paneldraw.framebuffer.arguments import LARGEST, check_antialias, choice, in_turn, real, size, whole
 from paneldraw.framebuffer.scaling import check_fit, checked_size
@@ -52,6 +53,7 @@ _DEPTHS = (1, 2, 4, 8)
 _ALGORITHMS = {"bresenham": 0, "dda": 1}
 _RULES = {"even-odd": 0, "nonzero": 1}
 _EDGES = {"shared": 0, "covered": 1}
+_HEADS = {"end": 1, "start": 2, "both": 3}
 
 # The attributes that are no subclass's.
 _OWN = {"pixels", "depth", "surface", "painter", "_whole", "_clips"}
@@ -368,6 +370,61 @@ class Framebuffer:
         self.painter.paint_with(c, op)
         self.painter.points(rows_of("xy", xy, 2, 1))
 
+    def arrow(
+        self,
+        x1: int | float,
+        y1: int | float,
+        x2: int | float,
+        y2: int | float,
+        c: int | None = None,
+        *,
+        heads: str = "end",
+        head: int | float | None = None,
+        width: int | float = 1,
+        cap: str = "square",
+        antialias: AntialiasOrDefault = ...,
+        op: str = "over",
+    ) -> None:
+        """Draw the line from (x1, y1) to (x2, y2) with an arrow head at its end, as one shape.
+
+        A head is a filled triangle with its tip at the end point, as broad as it is long.
+
+        Parameters
+        ----------
+        x1, y1, x2, y2 : int or float
+        c : int, optional
+        heads : {"end", "start", "both"}
+            Where there is a head: at (x2, y2), at (x1, y1), or at both.
+        head : int or float, optional
+            How long a head is, in pixels. Default: a pixel and three times the width.
+        width, antialias, op
+            As for `line`.
+        cap : {"square", "butt"}
+            As for `line`, of an end without a head.
+
+        Raises
+        ------
+        ValueError
+            If `head` is negative, `width` is below 1/256, or `heads`, `cap` or `op` is none of these.
+
+        Examples
+        --------
+        >>> from paneldraw import Framebuffer
+        >>> fb = Framebuffer(12, 5)
+        >>> fb.arrow(0, 2, 11, 2)
+        >>> print(fb)
+        .......#....
+        .......###..
+        ############
+        .......###..
+        .......#....
+        """
+        if is_word(cap, "round"):
+            raise ValueError("cap must be one of 'square', 'butt', not 'round'")
+        pointed = choice("heads", heads, _HEADS)
+        style = self.painter.style(c, op, width, antialias, cap)
+        self.painter.arrow((x1, y1, x2, y2), head, (pointed > 1, pointed % 2 == 1), style)
+
     # -- Paths
 
     def polyline(
@@ -649,7 +706,9 @@ class Framebuffer:
         c: int | None = None,
         fill: bool = False,
         *,
+        angle: int | float = 0,
         width: int | float = 1,
+        align: str = "center",
         dash: Iterable[int | float] | None = None,
         antialias: AntialiasOrDefault = ...,
         op: str = "over",
@@ -666,8 +725,14 @@ class Framebuffer:
             Size in pixels. A width or height of 0 draws nothing.
         c : int, optional
         fill : bool, default False
+        angle : int or float, default 0
+            Degrees by which it is turned around its center, clockwise as the screen shows it. Aliased and of width 1,
+            it is then the polygon with those corners.
         width : int or float, default 1
             Thickness of the outline in pixels, half of it on either side of the true outline.
+        align : {"center", "inside", "outside"}
+            Where the outline lies: half of it on either side of the true one; or all of it inside or outside of where
+            the shape ends, half a pixel beyond the true outline. Filled, it ends where that does.
         dash : iterable of int or float, optional
             As for `line`, clockwise from the top-left corner; of the outline that is drawn without `fill`.
         antialias : Supersample, ConeFilter or None, optional
@@ -690,7 +755,14 @@ class Framebuffer:
         .#.....#.
         .#######.
         """
-        self.painter.box(x, y, w, h, 0, fill, self.painter.style(c, op, width, antialias, "butt", "miter", dash))
+        if not is_word(align, "center"):
+            box = aligned_box((x, y, w, h), outward(align, width))
+            x, y, w, h, width, fill = (x, y, w, h, 1, True) if box is None else (*box, width, fill)
+        style = self.painter.style(c, op, width, antialias, "butt", "miter", dash)
+        if quick(angle) != 0 and real("angle", angle) % 180 != 0:
+            self.painter.turned_box(x, y, w, h, angle, fill, style)
+        else:
+            self.painter.box(x, y, w, h, 0, fill, style)
 
     def round_rect(
         self,
@@ -702,7 +774,9 @@ class Framebuffer:
         c: int | None = None,
         fill: bool = False,
         *,
+        corners: int = 0b1111,
         width: int | float = 1,
+        align: str = "center",
         antialias: AntialiasOrDefault = ...,
         op: str = "over",
     ) -> None:
@@ -715,13 +789,17 @@ class Framebuffer:
         r : int or float
             Radius of the corners. Of one too large, as much is taken as the sides have room for: half of the shorter
             one, less half a pixel. With 0 the corners are sharp, and it is `rect`. Halves count, as for `circle`.
-        c, fill, width, antialias, op
+        c, fill, width, align, antialias, op
             As for `rect`.
+        corners : int, default 0b1111
+            Which corners are round, bits as for the quarters of `ellipse`: 1 top right, 2 top left, 4 bottom left, 8
+            bottom right. The others are sharp.
 
         Raises
         ------
         ValueError
-            If `w`, `h` or `r` is negative, `width` is below 1/256 or `op` is none of these.
+            If `w`, `h` or `r` is negative, `width` is below 1/256, `corners` is not from 0 to 15, or `align` or
+            `op` is none of these.
 
         Examples
         --------
@@ -735,7 +813,19 @@ class Framebuffer:
         #.......#
         .#######.
         """
-        self.painter.box(x, y, w, h, r, fill, self.painter.style(c, op, width, antialias))
+        if not is_word(align, "center"):
+            off = outward(align, width)
+            box = aligned_box((x, y, w, h), off)
+            # Round corners stay round, a little.
+            r = max(r + off, 1 / 256) if box is not None and real("r", r) > 0 else r
+            x, y, w, h, width, fill = (x, y, w, h, 1, True) if box is None else (*box, width, fill)
+        style = self.painter.style(c, op, width, antialias, "butt")
+        if quick(corners) == 15:
+            self.painter.box(x, y, w, h, r, fill, style)
+        elif 0 <= size("corners", corners) <= 15:
+            self.painter.some_corners(x, y, w, h, r, corners, fill, style)
+        else:
+            raise ValueError(f"corners must be from 0 to 15, the sum of those to round of 1, 2, 4 and 8, not {corners}")
 
     def circle(
         self,
@@ -746,6 +836,7 @@ class Framebuffer:
         fill: bool = False,
         *,
         width: int | float = 1,
+        align: str = "center",
         dash: Iterable[int | float] | None = None,
         antialias: AntialiasOrDefault = ...,
         op: str = "over",
@@ -757,7 +848,7 @@ class Framebuffer:
         x, y, r : int or float
             A radius of 0 draws one pixel, or else a dot as large as the width. Aliased and of width 1, all three are
             taken to the nearest half: ``circle(4.5, 4.5, 4.5, fill=True)`` is 10 pixels wide.
-        c, fill, width, dash, antialias, op
+        c, fill, width, align, dash, antialias, op
             As for `rect`, but dashes begin on the right. They are measured along the true circle.
 
         Raises
@@ -784,6 +875,9 @@ class Framebuffer:
         .f...f.5c4.4c5
         ..fff...5dfd5.
         """
+        if not is_word(align, "center"):
+            radius = aligned_radius("r", r, outward(align, width))
+            r, width, fill = (r, 1, True) if radius is None else (radius, width, fill)
         style = self.painter.style(c, op, width, antialias, "butt", "miter", dash)
         if style.dash is not None and not fill:
             self.painter.turn(x, y, r, 0, 0, 360, style)
@@ -800,7 +894,9 @@ class Framebuffer:
         fill: bool = False,
         quadrants: int = 0b1111,
         *,
+        angle: int | float = 0,
         width: int | float = 1,
+        align: str = "center",
         antialias: AntialiasOrDefault = ...,
         op: str = "over",
     ) -> None:
@@ -819,13 +915,17 @@ class Framebuffer:
         quadrants : int, default 0b1111
             The quarters to draw, bits as in MicroPython's framebuf: 1 top right, 2 top left, 4 bottom left, 8 bottom
             right. A quarter includes the pixels on its axes, half a pixel beyond the center.
-        width, antialias, op
+        angle : int or float, default 0
+            Degrees by which it is turned around its center, clockwise as the screen shows it; all of it, no quarters.
+            Aliased and of width 1, a turned outline is found as that of `bezier`.
+        width, align, antialias, op
             As for `rect`.
 
         Raises
         ------
         ValueError
-            If a radius is negative, `width` is below 1/256, `quadrants` is not from 0 to 15, or `op` is none of these.
+            If a radius is negative, `width` is below 1/256, `quadrants` is not from 0 to 15, or other than 15 with an
+            `angle`, or `op` is none of these.
 
         Notes
         -----
@@ -848,8 +948,17 @@ class Framebuffer:
         if not 0 <= quarters <= 15:
             wanted = "the sum of those to draw of 1, 2, 4 and 8"
             raise ValueError(f"quadrants must be from 0 to 15, {wanted}, not {quadrants}")
+        if not is_word(align, "center"):
+            off = outward(align, width)
+            a, b = aligned_radius("xr", xr, off), aligned_radius("yr", yr, off)
+            xr, yr, width, fill = (xr, yr, 1, True) if a is None or b is None else (a, b, width, fill)
         style = self.painter.style(c, op, width, antialias)
-        self.painter.ellipse(x, y, xr, yr, fill, quarters, style)
+        if quick(angle) == 0 or real("angle", angle) % 180 == 0:
+            self.painter.ellipse(x, y, xr, yr, fill, quarters, style)
+        elif quarters == 15:
+            self.painter.turned_ellipse(x, y, xr, yr, angle % 360, fill, style)
+        else:
+            raise ValueError(f"quadrants must be 15, all of them, of an ellipse at an angle, not {quadrants}")
 
     def arc(
         self,
@@ -860,6 +969,7 @@ class Framebuffer:
         end: int | float,
         c: int | None = None,
         *,
+        yr: int | float | None = None,
         width: int | float = 1,
         cap: str = "butt",
         dash: Iterable[int | float] | None = None,
@@ -880,6 +990,9 @@ class Framebuffer:
             Degrees clockwise from the x axis, as the screen shows them: 0 is right, 90 down, -90 up. If `end` is 360
             or more beyond `start`, it is the circle; else the arc goes on until it first comes to `end`. From an angle
             to the same one it is a pixel; where it is wider or anti-aliased, its two caps.
+        yr : int or float, optional
+            The radius downward and upward, if it is another one than `r`: then it is the part of an ellipse that lies
+            between the directions of the two angles, drawn as `bezier` draws.
         c, width, antialias, op
             As for `rect`.
         cap : {"butt", "square", "round"}
@@ -891,7 +1004,7 @@ class Framebuffer:
         Raises
         ------
         ValueError
-            If `r` is negative or an angle is not finite, and as for `line`.
+            If `r` or `yr` is negative or an angle is not finite, and as for `line`.
 
         Examples
         --------
@@ -908,7 +1021,9 @@ class Framebuffer:
         start, end = real("start", start), real("end", end)
         style = self.painter.style(c, op, width, antialias, cap, "miter", dash)
         swept = sweep(start, end)
-        if swept >= 360 and style.dash is None:
+        if yr is not None:
+            self.painter.elliptical_turn(x, y, r, yr, start % 360, swept, style)
+        elif swept >= 360 and style.dash is None:
             self.circle(x, y, r, c, width=width, antialias=antialias, op=op)
         else:
             self.painter.turn(x, y, r, start % 360, end % 360, swept, style)
@@ -971,6 +1086,53 @@ class Framebuffer:
             self.circle(x, y, r, c, fill, width=width, antialias=antialias, op=op)
         else:
             self.painter.slice(x, y, r, start % 360, end % 360, swept, fill, style)
+
+    def flood_fill(
+        self, x: int | float, y: int | float, c: int | None = None, *, border: int | None = None, op: str = "over"
+    ) -> int:
+        """Fill the area that (x, y) lies in: the pixels of its level that hang together with it.
+
+        Pixels hang together that share a side; two that touch at a corner do not. So a line of Bresenham's, which steps
+        from corner to corner, is a boundary. What `clip` and the edges of the picture leave out ends the area too.
+
+        Parameters
+        ----------
+        x, y : int or float
+            Where to begin, to the nearest pixel. Outside, nothing is filled.
+        c : int, optional
+        border : int, optional
+            A level that bounds the area, whatever levels are within. Default: all that is not of the level at (x, y).
+        op : {"over", "xor", "add", "max", "clear"}
+
+        Returns
+        -------
+        int
+            How many pixels the area has, all of which are painted, those of level `c` too.
+
+        Raises
+        ------
+        ValueError
+            If `c` or `border` is no level or `op` is none of these.
+
+        Notes
+        -----
+        A. R. Smith, "Tint fill", SIGGRAPH 1979, 276-283.
+
+        Examples
+        --------
+        >>> from paneldraw import Framebuffer
+        >>> fb = Framebuffer(8, 5)
+        >>> fb.line(0, 4, 4, 0)
+        >>> fb.flood_fill(0, 0)
+        10
+        >>> print(fb)
+        #####...
+        ####....
+        ###.....
+        ##......
+        #.......
+        """
+        return self.painter.flood(x, y, c, border, op)
 
     # -- Text and pictures
 

@@ -34,6 +34,10 @@ cdef class Painter:
     cdef object segments(self, Numbers numbers, Style style, bint dda)
     cdef object segment(self, long long x1, long long y1, long long x2, long long y2, Style style, bint dda)
     cdef object path(self, str name, object points, bint closed, Style style)
+    cdef object arrow(self, tuple places, object head, tuple pointed, Style style)
+    cdef object some_corners(
+        self, object x, object y, object w, object h, object r, int corners, bint fill, Style style
+    )
     cdef object curve(self, object points, bint closed, Style style)
     cdef object smooth(self, object points, bint closed, Style style)
     cdef object triangle(
@@ -41,6 +45,16 @@ cdef class Painter:
     )
     cdef object polygon(self, object coords, bint fill, bint nonzero, bint covered, Style style)
     cdef object box(self, object x, object y, object w, object h, object r, bint fill, Style style)
+    cdef object turned_box(
+        self, object x, object y, object w, object h, object angle, bint fill, Style style
+    )
+    cdef object turned_ellipse(
+        self, object x, object y, object xr, object yr, object angle, bint fill, Style style
+    )
+    cdef object elliptical_turn(
+        self, object x, object y, object r, object yr, object start, object swept, Style style
+    )
+    cdef object flood(self, object x, object y, object c, object border, object op)
     cdef object circle(self, object x, object y, object r, bint fill, Style style)
     cdef object ellipse(self, object x, object y, object xr, object yr, bint fill, int quadrants, Style style)
     cdef object slice(
@@ -58,6 +72,11 @@ cdef class Painter:
         self, double *points, Py_ssize_t count, bint closed, Style style, double distance, tuple circle
     )
     cdef object _chain(self, object controls, bint closed, Style style)
+    cdef Path _ellipse(self, double x, double y, double a, double b, double angle, Style style)
+    cdef object _add_ellipse(
+        self, double x, double y, double a, double b, double angle, double beyond, Style style
+    )
+    cdef object _far_ellipse(self, object x, object y, object a, object b, object angle, bint fill, Style style)
     cdef Path _new_path(self, Style style)
     cdef object _smooth_path(self, Path path, bint closed, Style style)
     cdef object _fill_contours(self, Style style, bint nonzero)

@@ -29,6 +29,7 @@ from cython.cimports.paneldraw.raster.circle import disc as thin_disc
 from cython.cimports.paneldraw.raster.cone import ConeFilter
 from cython.cimports.paneldraw.raster.coverage import Coverage
 from cython.cimports.paneldraw.raster.disc import Part, Round, disc, ring
+from cython.cimports.paneldraw.raster.flood import flood
 from cython.cimports.paneldraw.raster.line import bresenham, dashed, polyline
 from cython.cimports.paneldraw.raster.paint import once, painted
 from cython.cimports.paneldraw.raster.polygon import polygon
@@ -36,7 +37,7 @@ from cython.cimports.paneldraw.raster.stroke import Contours, Stroke, arc_path, 
 from cython.cimports.paneldraw.raster.surface import OVER, Surface
 from cython.cimports.paneldraw.raster.thick_line import filtered_line, thick_line
 
-from paneldraw.framebuffer.angles import dashes, direction, is_reflex
+from paneldraw.framebuffer.angles import dashes, direction, is_reflex, on_ellipse, turned_box, turned_ellipse
 from paneldraw.framebuffer.arguments import (
     check_antialias,
     choice,
@@ -116,6 +117,28 @@ class Painter:
             bresenham(self.surface, a, b, c, d)
         else:
             self.segment(a, b, c, d, style, dda)
+
+    def arrow(self, places, head, pointed, style):
+        """Draw a line with a head at one of its ends or both."""
+        names = ("x1", "y1", "x2", "y2")
+        ends = [nearest(name, place, 256) for name, place in zip(names, places, strict=True)]
+        width = style.width
+        length = 3 * width + 256 if head is None else nearest("head", head, 256)
+        if length < 0:
+            raise ValueError(f"head must not be negative, and is {head}")
+        shape = outline.arrow(ends, width, style.cap == _SQUARE, length, pointed)
+        if not style.thin:
+            self._far_fill(shape, True, style)
+            return
+        surface: Surface = self.surface
+        marks: Surface = once(surface)
+        self.surface = self.coverage.surface = marks
+        try:
+            self.line(places[0], places[1], places[2], places[3], style, False)
+            self._far_outlines(shape[: sum(pointed)], True, True, True, style)
+        finally:
+            self.surface = self.coverage.surface = surface
+        painted(surface, marks, surface.top, surface.bottom)
 
     def segments(self, numbers, style, dda):
         """Draw the line of each row."""
@@ -433,6 +456,121 @@ class Painter:
         elif quadrants:
             part = None if quadrants == 15 else Part(quadrants, (0, 0), (0, 0), False, False, 0)
             self._round_shape(self.x, self.y, self.x, self.y, self.a, self.b, False, fill, part, style)
+
+    def turned_box(self, x, y, w, h, angle, fill, style):
+        """Draw a rectangle turned around its center."""
+        left, top, across, down = _in_256ths((("x", x), ("y", y), ("w", w), ("h", h)))
+        if across < 0 or down < 0:
+            extent("w", w, 256)
+            extent("h", h, 256)
+        if across == 0 or down == 0:
+            return
+        beyond = 0 if style.thin or not fill else style.width // 2
+        box = [left - beyond, top - beyond, across - 256 + 2 * beyond, down - 256 + 2 * beyond]
+        self.polygon(turned_box(box, angle), fill, False, style.thin, style)
+
+    def turned_ellipse(self, x, y, xr, yr, angle, fill, style):
+        """Draw an ellipse turned around its center."""
+        cx, cy, a, b = _in_256ths((("x", x), ("y", y), ("xr", xr), ("yr", yr)))
+        if a < 0 or b < 0:
+            extent("xr", xr, 256)
+            extent("yr", yr, 256)
+        half = style.width // 2
+        if max(abs(cx), abs(cy), a, b) > 256 * clip.REACH:
+            self._far_ellipse(cx, cy, a, b, angle, fill, style)
+            return
+        outer: Path = self._ellipse(cx, cy, a, b, angle, style) if style.thin else None
+        surface: Surface = self.surface
+        marks: Surface = once(surface) if style.thin else surface
+        if fill or not style.thin:
+            self.contours.begin()
+            self._add_ellipse(cx, cy, a, b, angle, 0 if style.thin else half, style)
+            if not fill and min(a, b) > half:
+                self._add_ellipse(cx, cy, a, b, angle, -half, style)
+            self.coverage.surface = marks
+            self._fill_contours(style, False)
+            self.coverage.surface = surface
+        if style.thin:
+            walk(marks, outer, None, True, [])
+            painted(surface, marks, surface.top, surface.bottom)
+
+    def _ellipse(self, x, y, a, b, angle, style):
+        """The path around an ellipse."""
+        path: Path = self._new_path(style)
+        path.ellipse(x, y, a, b, angle, 0, 360)
+        path.add(path.points[0], path.points[1])
+        return path
+
+    def _add_ellipse(self, x, y, a, b, angle, beyond, style):
+        """Add the contour of an ellipse with radii larger by `beyond`."""
+        i: cython.Py_ssize_t
+        path: Path = self._ellipse(x, y, a + beyond, b + beyond, angle, style)
+        for i in range(path.count - 1):
+            self.contours.add(path.points[2 * i], path.points[2 * i + 1], 0, 0)
+        self.contours.close()
+
+    def _far_ellipse(self, x, y, a, b, angle, fill, style):
+        """Draw a turned ellipse of any size."""
+        half = style.width // 2
+        paths = [outline.curve(turned_ellipse(x, y, a, b, (angle, 0, 360)))]
+        if style.thin:
+            self._far_outlines(paths, True, fill, True, style)
+            return
+        radii = [(a + half, b + half)] if fill or min(a, b) <= half else [(a + half, b + half), (a - half, b - half)]
+        self._far_fill([outline.curve(turned_ellipse(x, y, *pair, (angle, 0, 360))) for pair in radii], False, style)
+
+    def elliptical_turn(self, x, y, r, yr, start, swept, style):
+        """Draw a part of an ellipse, between the directions of two angles."""
+        cx, cy, a, b = _in_256ths((("x", x), ("y", y), ("r", r), ("yr", yr)))
+        if a < 0 or b < 0:
+            extent("r", r, 256)
+            extent("yr", yr, 256)
+        begin = on_ellipse(start, a, b)
+        turned = 360 if swept >= 360 else on_ellipse(start + swept, a, b) - begin
+        if max(abs(cx), abs(cy), a, b) > 256 * clip.REACH:
+            controls = turned_ellipse(cx, cy, a, b, (0, begin, turned))
+            self._far_outlines([outline.curve(controls)], swept >= 360, False, True, style)
+            return
+        path: Path = self._new_path(style)
+        path.ellipse(cx, cy, a, b, 0, begin, turned)
+        if swept >= 360:
+            path.add(path.points[0], path.points[1])
+        if style.thin:
+            walk(self.surface, path, None, False, _in_steps(style.dash))
+        else:
+            self._smooth_path(path, swept >= 360, style)
+
+    def flood(self, x, y, c, border, op):
+        """Fill what hangs together with a pixel; return how many pixels that is."""
+        self.paint_with(c, op)
+        surface: Surface = self.surface
+        column: cython.longlong = near_pixel("x", x)
+        row: cython.longlong = near_pixel("y", y)
+        edge: cython.int = 0 if border is None else level(surface, border)
+        if not (surface.left <= column < surface.right and surface.top <= row < surface.bottom):
+            return 0
+        if border is None:
+            edge = surface.pixels[row * surface.stride + column]
+        return flood(surface, column, row, edge, border is not None)
+
+    def some_corners(self, x, y, w, h, r, corners, fill, style):
+        """Draw a rectangle of which some corners are round: each quarter of it in a window of its own."""
+        surface: Surface = self.surface
+        left: cython.Py_ssize_t = surface.left
+        top: cython.Py_ssize_t = surface.top
+        right: cython.Py_ssize_t = surface.right
+        bottom: cython.Py_ssize_t = surface.bottom
+        across, down, w2, h2 = _in_256ths((("x", x), ("y", y), ("w", w), ("h", h)))
+        column = min(max((across + w2 // 2) >> 8, left), right)
+        row = min(max((down + h2 // 2) >> 8, top), bottom)
+        windows = ((column, top, right, row), (left, top, column, row))
+        windows += ((left, row, column, bottom), (column, row, right, bottom))
+        try:
+            for bit, window in enumerate(windows):
+                surface.set_window(*window)
+                self.box(x, y, w, h, r if corners >> bit & 1 else 0, fill, style)
+        finally:
+            surface.set_window(left, top, right, bottom)
 
     def box(self, x, y, w, h, r, fill, style):
         """Draw a rectangle, its corners sharp for r = 0 or else round."""

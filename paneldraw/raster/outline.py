@@ -39,6 +39,24 @@ def thick_line(x1: int, y1: int, x2: int, y2: int, width: int, square: bool) -> 
     return [x1 - uy, y1 + ux, x1 + uy, y1 - ux, x2 + uy, y2 - ux, x2 - uy, y2 + ux]
 
 
+def arrow(ends: Box, width: int, square: bool, length: int, pointed: tuple[bool, bool]) -> list[Contour]:
+    """Return a line and the heads at its ends, triangles as broad as long, where the line does not go on in them."""
+    x1, y1, x2, y2 = ends
+    dx, dy = (x2 - x1, y2 - y1) if (x1, y1) != (x2, y2) else (256, 0)
+    whole = isqrt((dx * dx + dy * dy) << 64)
+    ux, uy = (((2 * side * length << 32) + whole) // (2 * whole) for side in (dx, dy))
+    shape = []
+    for (x, y), side, is_pointed in (((x1, y1), -1, pointed[0]), ((x2, y2), 1, pointed[1])):
+        bx, by = x - side * ux, y - side * uy
+        if is_pointed:
+            shape.append([x, y, bx - uy // 2, by + ux // 2, bx + uy // 2, by - ux // 2])
+            x1, y1, x2, y2 = (bx, by, x2, y2) if side < 0 else (x1, y1, bx, by)
+    # Heads that meet leave no line between them.
+    if dx * (x2 - x1) + dy * (y2 - y1) > 0:
+        shape.append(thick_line(x1, y1, x2, y2, width, square))
+    return shape
+
+
 def rounded_box(left: int, top: int, right: int, bottom: int, a: int, b: int) -> Contour:
     """Return a box with quarters of an ellipse around its corners: an ellipse's box is its center."""
     centers = [(right, bottom), (left, bottom), (left, top), (right, top)]

@@ -18,6 +18,7 @@ cdef inline long long meet(
     return max(old, share)
 
 cdef Surface once(Surface surface)
+cdef Surface scratch(Surface surface)
 cdef void painted(Surface surface, Surface marks, long long top, long long bottom)
 cdef void paint_coverage(
     Surface surface, Py_ssize_t y, Py_ssize_t x, int *changes, Py_ssize_t first, Py_ssize_t count, int shift, int full,

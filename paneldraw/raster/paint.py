@@ -24,8 +24,11 @@ def once(surface):
 
     It is the surface itself, if its operation may be repeated on a pixel, else a scratch surface of the same window.
     """
-    if surface.op != XOR and surface.op != ADD:
-        return surface
+    return scratch(surface) if surface.op == XOR or surface.op == ADD else surface
+
+
+def scratch(surface):
+    """A surface of the same window, all 0, on which pixels are marked by a 1."""
     if surface.marks is None:
         memory = bytearray(surface.width * surface.height)
         surface.marks = Surface(memory, 0, surface.width, surface.width, surface.height, 1)

@@ -28,6 +28,7 @@ WIDTH, HEIGHT = 128, 64
 #: The calls of a framebuffer that statements name, after "", "smooth_" or "cone_" for how they are anti-aliased.
 CALLS = (
     *("pixel", "hline", "vline", "line", "lines", "polyline", "rect", "round_rect", "circle", "arc", "sector"),
+    *("bezier", "flood_fill"),
     *("triangle", "poly", "fill", "text", "image", "blit", "scroll"),
 )
 
@@ -85,7 +86,7 @@ def opencv() -> Names:
 
     cv2.setNumThreads(1)
     canvas = np.zeros((HEIGHT, WIDTH), np.uint8)
-    shapes = ("line", "polylines", "rectangle", "circle", "ellipse", "fillPoly", "fillConvexPoly")
+    shapes = ("line", "polylines", "rectangle", "circle", "ellipse", "fillPoly", "fillConvexPoly", "floodFill")
     return {
         **{name: getattr(cv2, name) for name in (*shapes, "putText", "copyTo", "threshold")},
         "canvas": canvas,
@@ -110,7 +111,7 @@ def pygame() -> Names:
     surface, wide = (pygame.Surface((WIDTH, HEIGHT), 0, bits) for bits in (8, 32))
     surface.set_palette([(grey, grey, grey) for grey in range(256)])
     shapes = ("line", "rect", "circle", "polygon", "aaline", "aacircle")
-    gfx_shapes = ("line", "rectangle", "box", "circle", "hline", "vline", "trigon")
+    gfx_shapes = ("line", "rectangle", "box", "circle", "hline", "vline", "trigon", "bezier")
     return {
         **{name: getattr(pygame.draw, name) for name in shapes},
         **{f"gfx_{name}": getattr(gfxdraw, name) for name in gfx_shapes},

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 import random
 
@@ -150,6 +151,24 @@ def aliased() -> list[Row]:
                 Against("pygame", "for points in point_polygons: polygon(surface, 255, points)"),
             ),
         ),
+        Row(
+            "cubic curve",
+            N,
+            "for table in curves: bezier(table)",
+            (
+                Against("pygame", "for points in point_curves: gfx_bezier(wide, points, 32, white)", how="gfxdraw"),
+                Against("Skia", "for one in skia_curves: drawPath(one, outline)"),
+            ),
+        ),
+        Row(
+            "flood fill, all of it",
+            1,
+            "flood_fill(3, 3)",
+            (
+                Against("Pillow", "flood(image, (3, 3), next(other))"),
+                Against("OpenCV", "floodFill(canvas, None, (3, 3), 255)"),
+            ),
+        ),
     ]
 
 
@@ -220,6 +239,12 @@ def smooth(kind: str, call: str, opencv: float | None = None, blend2d: float | N
             ),
         ),
         Row(
+            f"cubic curve, width 3, {kind}",
+            N,
+            f"for table in curves: {call}bezier(table, width=3)",
+            (Against("Skia", "for one in skia_curves: drawPath(one, wide)"),),
+        ),
+        Row(
             f"arc, r {LARGE}, width 3, {kind}",
             N,
             TURNS + f"{call}arc(64, 32, LARGE, start, end, width=3)",
@@ -275,6 +300,7 @@ def shapes() -> Names:
         "polygons": [points[k : k + 12] for k in range(N)],
         "regular": [ngon(x, y) for x, y in centers],
         "paths": [points[k : k + 10] for k in range(N)],
+        "curves": [points[k : k + 4] for k in range(N)],
     }
     turns = [(pick.randrange(-180, 180), pick.randrange(10, 350)) for _ in range(N)]
     return {
@@ -288,7 +314,7 @@ def shapes() -> Names:
         "flat_polygons": flat(lists["polygons"]),
         "turns": [(start, start + sweep) for start, sweep in turns],
         "triangles": flat(lists["triangles"]),
-        **{name: [np.array(one) for one in lists[name]] for name in ("polygons", "regular", "paths")},
+        **{name: [np.array(one) for one in lists[name]] for name in ("polygons", "regular", "paths", "curves")},
         "SMALL": SMALL,
         "LARGE": LARGE,
         "RADIUS": LARGE + 0.5,
@@ -315,8 +341,11 @@ def halves(lists: list[Points]) -> list[Halves]:
 
 
 def pillow() -> Names:
-    """The box around the arcs."""
-    return canvases.pillow() | {"box": (64 - SMALL, 32 - SMALL, 64 + SMALL, 32 + SMALL)}
+    """The box around the arcs, and for its flood fill, which does nothing to an area of its level, levels in turn."""
+    from PIL import ImageDraw
+
+    box = (64 - SMALL, 32 - SMALL, 64 + SMALL, 32 + SMALL)
+    return canvases.pillow() | {"box": box, "flood": ImageDraw.floodfill, "other": itertools.cycle((1, 0))}
 
 
 def opencv() -> Names:
@@ -338,6 +367,7 @@ def pygame() -> Names:
         "surface_rects": [names["Rect"](*rect) for rect in made["rects"]],
         "point_triangles": made["lists"]["triangles"],
         "point_polygons": made["lists"]["polygons"],
+        "point_curves": made["lists"]["curves"],
     }
 
 
@@ -370,6 +400,12 @@ def skia() -> Names:
         lists = [[library.Point(*point) for point in points] for points in halves(made["lists"][name])]
         return [library.Path.Polygon(points, closed, library.PathFillType.kEvenOdd) for points in lists]
 
+    def curve(points: Halves) -> object:
+        made = library.Path()
+        made.moveTo(*points[0])
+        made.cubicTo(*(number for point in points[1:] for number in point))
+        return made
+
     def oval(r: float) -> object:
         made: object = library.Rect.MakeXYWH(64.5 - r, 32.5 - r, 2 * r, 2 * r)
         return made
@@ -381,6 +417,7 @@ def skia() -> Names:
         "skia_polygons": paths("polygons", True),
         "skia_regular": paths("regular", True),
         "skia_paths": paths("paths", False),
+        "skia_curves": [curve(points) for points in halves(made["lists"]["curves"])],
         "oval": oval(LARGE),
         "wide_oval": oval(LARGE + 0.5),
     }
