@@ -22,7 +22,7 @@ def outward(align: Any, width: Any) -> Number:
     return off // 512 if off % 512 == 0 else off / 512
 
 
-def aligned_box(box: tuple[Any, Any, Any, Any], off: Number) -> tuple[Number, ...] | None:
+def aligned_box(box: tuple[Any, Any, Any, Any], off: Number) -> tuple[Number, Number, Number, Number] | None:
     """The box (x, y, w, h) moved outward; None if nothing of it would be left."""
     x, y, w, h = (real(name, value) for name, value in zip("xywh", box, strict=True))
     if min(w, h) <= 0:

@@ -757,7 +757,10 @@ class Framebuffer:
         """
         if not is_word(align, "center"):
             box = aligned_box((x, y, w, h), outward(align, width))
-            x, y, w, h, width, fill = (x, y, w, h, 1, True) if box is None else (*box, width, fill)
+            if box is None:
+                width, fill = 1, True
+            else:
+                x, y, w, h = box
         style = self.painter.style(c, op, width, antialias, "butt", "miter", dash)
         if quick(angle) != 0 and real("angle", angle) % 180 != 0:
             self.painter.turned_box(x, y, w, h, angle, fill, style)
@@ -818,7 +821,10 @@ class Framebuffer:
             box = aligned_box((x, y, w, h), off)
             # Round corners stay round, a little.
             r = max(r + off, 1 / 256) if box is not None and real("r", r) > 0 else r
-            x, y, w, h, width, fill = (x, y, w, h, 1, True) if box is None else (*box, width, fill)
+            if box is None:
+                width, fill = 1, True
+            else:
+                x, y, w, h = box
         style = self.painter.style(c, op, width, antialias, "butt")
         if quick(corners) == 15:
             self.painter.box(x, y, w, h, r, fill, style)

@@ -22,7 +22,7 @@ class Flood:
         self.memory = bytearray()
         self.waiting = 0
         if not cython.compiled:
-            self.places = []
+            self.places = [0, 0]
 
     def takes(self, x, y):
         """Whether a pixel in the window is to be filled, and is not yet."""
