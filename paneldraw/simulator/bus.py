@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from typing import Any, Protocol
 
 from . import log
+from .chip import Chip
 from .wire import EREMOTEIO, Fault, Wire, check_bus, os_error
 
 _MAX_MESSAGES = 42
@@ -214,6 +215,7 @@ class I2CBus(Wire):
         self.clock = clock
         self._stuck: tuple[int, int | None] | None = None
         self._held = 0.0
+        self._call = 0, 0  # bytes and messages before the present call
         self.transactions = 0
         self._heard: list[log.Message] = []
         self.fd: int | None = None
@@ -525,6 +527,7 @@ class I2CBus(Wire):
             self.transactions += 1
             self._check_free()
             bytes_before, started, stops = self.bytes, 0, 1
+            self._call = self.bytes, self.messages
             touched: dict[int, tuple[Device, int]] = {}
             try:
                 for part in parts:
@@ -549,6 +552,8 @@ class I2CBus(Wire):
                 busy, self._held = (9 * (self.bytes - bytes_before) + started + stops) / self.clock + self._held, 0
                 now = self._elapse(busy)
                 for device, wire_bytes in touched.values():
+                    if isinstance(device, Chip) and device.timeline:
+                        device.timeline.settle(now - busy)
                     device.settle(now, wire_bytes)
                 if self._heard and self.log:
                     self.log.write(log.Call(now, tuple(self._heard)))
@@ -602,6 +607,9 @@ class I2CBus(Wire):
                 fault, got = None, size
         self.bytes += got
         if part.length is None:
+            if isinstance(device, Chip) and device.timeline:
+                bits = 9 * (self.bytes - got - self._call[0]) + self.messages - self._call[1]
+                device.timeline.begin(bits / self.clock, 9 / self.clock)
             device.write(part.payload[:got])
             self.bytes += got < size
             self._note(part.address, part.payload[:got], read=False, acknowledged=got == size)

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from PIL.Image import Image
 
     from .addressing import Place
+    from .eye import Timeline
 
 _STATUS_OFF = 0x40
 _MOST_STEPS = 1000
@@ -85,6 +86,8 @@ class Chip(ABC):
     """The registers and what reset gives them."""
 
     registers: Registers
+    timeline: Timeline | None = None
+    """What the chip took lately, where it remembers."""
 
     def __init__(
         self, width: int, height: int, *, history: int | None, seed: int | None, cells: tuple[int, ...] = (0,)
@@ -162,6 +165,9 @@ class Chip(ABC):
         """
         if self.listener:
             self.listener.settled(seconds)
+        if self.timeline:
+            self.timeline.settle(seconds)  # what no bus has timed
+            self.timeline.wait(seconds)
         self.wire_bytes += wire_bytes
         self._unframed_bytes += wire_bytes
         progress = self._progress
@@ -180,6 +186,8 @@ class Chip(ABC):
 
     def wait(self, seconds: float) -> None:
         """Let time pass up to `seconds`: what the chip moves by itself moves on, a frame a step. Buses call this."""
+        if self.timeline:
+            self.timeline.wait(seconds)
         if self._next_step is None or seconds < self._next_step or not (period := self._step_seconds):
             return
         self._end_picture()

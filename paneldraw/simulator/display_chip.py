@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from .addressing import DOWN, PAGE, PAGES, Bytes, Counter, Packing, Place, levels, put, way
 from .chip import Chip
 from .commands import UNKNOWN, Command, Commands
+from .eye import Timeline, flicker
 from .frames import Picture
 from .glass import Glass, Module, com_signals
 from .scroll import Scroll
@@ -84,6 +85,7 @@ class DisplayChip(Chip):
     """What to send for it."""
     identity: ClassVar[int] = 0
     """The lower bits of the status byte."""
+    highest_contrast: ClassVar[int] = 255
     arguments_are_data: ClassVar[bool] = False
     """Whether arguments come with D/C high, and data only after a command that says so (`registers.writing`)."""
 
@@ -126,6 +128,8 @@ class DisplayChip(Chip):
         super().reset()
         self._pending = b""
         self._half_cell = b""
+        if self.timeline:
+            self.timeline.changed()
 
     # the wire
 
@@ -135,11 +139,17 @@ class DisplayChip(Chip):
         A command whose arguments do not fit in this write waits for them in the next, as the chip does.
         """
         payload = bytes(payload)
+        timeline, at = self.timeline, 1
         if payload and payload[0] in (0x00, 0x40):  # nearly always
+            if timeline:
+                timeline.at(at)
             self.transfer(payload[1:], payload[0] == 0x40)
         else:
             for data, run in self._runs(payload):
+                if timeline:
+                    timeline.at(at)
                 self.transfer(run, data)
+                at += len(run) + 1
 
     def transfer(self, run: bytes | bytearray | memoryview, data: bool) -> None:
         """Take bytes over SPI, with the D/C line low (`data` False: commands) or high."""
@@ -254,7 +264,79 @@ class DisplayChip(Chip):
         pace = _OSCILLATOR + _OSCILLATOR_STEP * (r.clock >> 4)
         return float(clocks * (r.multiplex + 1) * ((r.clock & 0x0F) + 1) / pace)
 
+    @property
+    def remembers(self) -> bool:
+        """Whether the chip keeps what it takes for `seen` and `flicker`, which costs time. Default: False."""
+        return self.timeline is not None
+
+    @remembers.setter
+    def remembers(self, remembers: bool) -> None:
+        if remembers != self.remembers:
+            self._at_rest(lambda: setattr(self, "timeline", Timeline(self) if remembers else None))
+            self._at_rest(lambda: None)  # for the time
+
+    def seen(self, seconds: float) -> NDArray[np.float64]:
+        """Return the light that an eye saw of each pixel in the last seconds, on average.
+
+        The chip scans its lines in its own time, `frame_seconds` a picture, and each shows what RAM and registers hold
+        in that moment. Scans that were complete in that time are counted. `remembers` must have been set; what the
+        chip held then counts for the time before.
+
+        Parameters
+        ----------
+        seconds : float
+            Up to 2, on the bus's clock, ending now.
+
+        Returns
+        -------
+        numpy.ndarray
+            Shape (height, width); 1 is a pixel that is lit all the time at the highest contrast.
+
+        Raises
+        ------
+        ValueError
+            No scan is complete in that time, it is more than 2 seconds, or the chip does not remember.
+
+        Examples
+        --------
+        >>> from paneldraw import simulator
+        >>> chip = simulator.SSD1306()
+        >>> chip.remembers = True
+        >>> with simulator.I2CBus({0x3C: chip}, timer=None) as bus:
+        ...     bus.write_i2c_block_data(0x3C, 0x00, [0x8D, 0x14, 0xA5, 0xAF])
+        ...     bus.idle(0.2)
+        >>> round(float(chip.seen(0.1).mean()), 3)  # contrast 7F of FF
+        0.498
+        """
+        return np.asarray(self._scans(seconds).mean(axis=0))
+
+    def flicker(self, seconds: float) -> NDArray[np.float64]:
+        """Return each pixel's strongest component below 50 Hz in the last seconds, relative to its light.
+
+        `seconds` is as in `seen`, and the slowest flicker that is found takes as long.
+        """
+        return flicker(self._scans(seconds), self.frame_seconds)
+
+    def _scans(self, seconds: float) -> NDArray[np.float64]:
+        found: list[NDArray[np.float64]] = []
+
+        timeline = self.timeline
+        if timeline is None:
+            raise ValueError("remembers must be True before there is something to see over time")
+        self._at_rest(lambda: found.append(timeline.scans(seconds)))
+        return found[0]
+
     # inside
+
+    @property
+    def _light(self) -> float:
+        """Light of a lit pixel, as the contrast has it: the segment current of the SSD1306's sheet is in proportion."""
+        return self.contrast / self.highest_contrast
+
+    def _scan_order(self) -> NDArray[np.float64]:
+        """When in a scan each visible line is lit, from 0 to 1."""
+        multiplex = self.scan[0] + 1
+        return (self._glass.turns(self) % multiplex + 0.5) / multiplex
 
     @property
     def _step_seconds(self) -> float:
@@ -265,6 +347,8 @@ class DisplayChip(Chip):
 
     def _step(self, count: int) -> None:
         self.registers.scroll.move(self.pages, count)
+        if self.timeline:
+            self.timeline.changed()
 
     def _lose_ram(self) -> None:
         noise = np.frombuffer(self._random.randbytes(self._ram.size), np.uint8).reshape(self._ram.shape)
@@ -328,6 +412,8 @@ class DisplayChip(Chip):
             self._end_picture()
             self._picture = None
         command.act(self, sent)
+        if self.timeline and not command.points:
+            self.timeline.commanded(end)
         if self.listener:
             self._tell(sent, command.reading(self, sent))
         return end
@@ -361,6 +447,8 @@ class DisplayChip(Chip):
         if self.listener:
             self.listener.placed(len(cells) * self.column_bytes, places, mode == DOWN)
         put(ram.swapaxes(0, 1) if mode == DOWN else ram, places, cells)
+        if self.timeline:
+            self.timeline.placed(places, cells, down=mode == DOWN, size=self.column_bytes)
         self._picture = None
         self.registers.column = column
         setattr(self.registers, self.line_name, line)

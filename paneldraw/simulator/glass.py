@@ -107,11 +107,15 @@ class Glass:
         """Bring levels of lines that are not scanned, such as icons, onto the glass."""
         return levels[:, self._segments]
 
-    def _rows(self, count: int, chip: Scan) -> tuple[slice | NDArray[np.intp], NDArray[np.bool_] | None]:
-        multiplex, offset, start_line, com_reversed, setting = chip.scan
+    def turns(self, chip: Scan) -> NDArray[np.intp]:
+        """Which turn in a scan each visible line has."""
+        multiplex, _, _, com_reversed, setting = chip.scan
         signals = chip.com_signals(setting)[self._pads]
-        lines = (chip.reversed_lines or multiplex + 1) - 1 - signals if com_reversed else signals
-        rows = (lines + offset) % count
+        return (chip.reversed_lines or multiplex + 1) - 1 - signals if com_reversed else signals
+
+    def _rows(self, count: int, chip: Scan) -> tuple[slice | NDArray[np.intp], NDArray[np.bool_] | None]:
+        multiplex, offset, start_line, _, _ = chip.scan
+        rows = (self.turns(chip) + offset) % count
         dark = rows > multiplex
         rows = (rows + start_line) % count
         steady = bool((np.diff(rows) == 1).all())

@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterable, Sequence
 from typing import Any, ClassVar, Final, Protocol
 
 from . import log
+from .chip import Chip
 from .wire import Fault, Wire, check_bus, os_error
 
 _MOST_VALUES: Final = 4096
@@ -197,6 +198,9 @@ class SPIBus(Wire):
             got = len(payload) if fault is None else fault.reach(len(payload))
             sent = got if fault and fault.errno else len(payload)
             self.bytes += sent
+            for chip in self.chips:
+                if isinstance(chip, Chip) and chip.timeline:
+                    chip.timeline.begin(0.0, seconds / max(len(payload), 1))
             self._shift(payload[:got])
             if self.cs is None and not self.spi.no_cs:
                 self._deselect()
@@ -242,6 +246,8 @@ class SPIBus(Wire):
     def _settle(self, busy: float, wire_bytes: int) -> None:
         now = self._elapse(busy)
         for chip in self.chips:
+            if isinstance(chip, Chip) and chip.timeline:
+                chip.timeline.settle(now - busy)
             chip.settle(now, wire_bytes)
 
 

@@ -96,8 +96,8 @@ class Cycle:
     --------
     >>> Cycle(4).weights, Cycle(4, weighted=True).weights
     ((1, 1, 1), (1, 2))
-    >>> Cycle(4).pictures(np.array([[0, 1, 2, 3]], np.uint8)).sum(axis=0)
-    array([[0, 1, 2, 3]])
+    >>> Cycle(4).pictures(np.array([[0, 1, 2, 3]], np.uint8)).sum(axis=0).tolist()
+    [[0, 1, 2, 3]]
     """
 
     def __init__(self, greys: int, *, weighted: bool = False) -> None:
