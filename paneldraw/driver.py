@@ -68,6 +68,8 @@ class Driver:
 
     Attributes
     ----------
+    cost : Cost
+        What a message costs on the wire.
     ready : bool
         Whether the chip took its init, and nothing went wrong since.
     shown : bool
@@ -88,7 +90,8 @@ class Driver:
     ) -> None:
         self.controller, self.transport, self.stats = controller, transport, stats
         self._wire = SyncedTransport(transport) if controller.synced else transport
-        self._planner = planner_for(controller, self._wire.cost, updates)
+        self.cost = self._wire.cost
+        self._planner = planner_for(controller, self.cost, updates)
         self._pack = packer(controller)
         self._plain = controller.bands == 1 and not (controller.mirror_x or controller.mirror_y)
         self.contrast = contrast

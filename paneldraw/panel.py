@@ -20,6 +20,7 @@ from paneldraw import urls, watching
 from paneldraw.care import Care
 from paneldraw.controllers import BUSES, CHIPS, Controller, features
 from paneldraw.controllers.packing import highest
+from paneldraw.cycling import Cycling
 from paneldraw.driver import Driver
 from paneldraw.errors import PanelError, PanelTimeoutError, TransportError, did_you_mean
 from paneldraw.framebuffer import Framebuffer, pictures
@@ -84,6 +85,8 @@ class Stats:
     """How often the chip was started anew: after faults, lost power, `Panel.invalidate` and ``show(force=True)``."""
     dropped: int = 0
     """Pictures of ``show(wait=False)`` that a later one overtook."""
+    fewer_greys: int = 0
+    """Pictures of a panel with `greys` that the wire carries in fewer only."""
     faults: dict[str, int] = field(default_factory=dict)
     """How many faults of each kind, by the system's name for them."""
 
@@ -131,6 +134,15 @@ class Panel:
         run addressed in full, with nothing assumed of the chip's pointers, for clones that do not keep to the
         datasheet and for panels that another program writes to as well; or ``"whole"``, every picture that differs as a
         whole, as plainly.
+    greys : int, optional
+        3, 4, 5, 8 or 16 greys on a panel of one bit, black and white among them, by sub-pictures that the eye averages:
+        a thread sends them while a picture has grey. `show` hands the picture to it and returns at once. Default: 1,
+        none but black and white.
+    bus_share : float, optional
+        How much of the wire the sub-pictures may take. Default: 0.8.
+    bus_clock : float, optional
+        Bits a second of the wire, by which it is known beforehand how many greys it carries. Default: what the
+        transport says, else 400 000, that of a fast I2C bus.
 
     Attributes
     ----------
@@ -168,11 +180,19 @@ class Panel:
         dim_after: float | None = None,
         off_after: float | None = None,
         pixel_shift: float | None = None,
+        greys: int = 1,
+        bus_share: float = 0.8,
+        bus_clock: float | None = None,
     ) -> None:
         record = _record(controller)
         transport = _carrier(transport, record)
         try:
             self._set_up(record, transport, contrast, updates, refresh)
+            self._cycling = None if greys == 1 else Cycling(self._driver, self.stats, greys, bus_share, bus_clock)
+            if self._cycling is not None and (dim_after or off_after or pixel_shift):
+                raise ValueError(
+                    "dim_after, off_after and pixel_shift must be None with greys, which change all the time"
+                )
             self._care = Care(dim_after, off_after, pixel_shift, time.monotonic())
             self.rotate = rotate
             _check_on_close(on_close)
@@ -255,7 +275,7 @@ class Panel:
     @property
     def depth(self) -> int:
         """Bits a pixel."""
-        return self.controller.depth
+        return self.controller.depth if self._cycling is None else self._cycling.depth
 
     def framebuffer(self) -> Framebuffer:
         """Make a blank framebuffer of this panel's size and depth."""
@@ -330,9 +350,9 @@ class Panel:
         if self._closed or self._foreign or (self._sender is not None and self._sender.error is not None):
             self._listen()
         pixels, max_level = self._levels(source, dither, gamma)
-        if wait and self._sender is None:
+        if wait and self._sender is None and self._cycling is None:
             return self._show(pixels, max_level, force)
-        if not wait:
+        if not wait or self._cycling is not None:
             if force:
                 self.invalidate()
             return self._hand_over(pixels.copy(), max_level)
@@ -345,6 +365,8 @@ class Panel:
 
         self._listen()
         pixels, max_level = self._levels(source)
+        if self._cycling is not None:
+            return self._hand_over(pixels.copy(), max_level)
         return await asyncio.to_thread(self._show, pixels.copy(), max_level, force)
 
     def flush(self, timeout: float | None = None) -> None:
@@ -617,6 +639,8 @@ class Panel:
         """
         self._driver.wake()
         self._change(self._driver.power)
+        if self._cycling is not None and self._cycling.going:
+            self._own_sender().wake_at(self._cycling.due)
 
     def invalidate(self) -> None:
         """Say that the panel's state is unknown, after a power cut for instance: the next show starts it anew."""
@@ -646,6 +670,9 @@ class Panel:
         if self._sender is not None:
             self._sender.stop(0.0)
         try:
+            if self._cycling is not None and self._on_close == "keep":
+                with contextlib.suppress(TransportError):  # a panel that is gone may be closed
+                    self._cycling.settle()
             self._driver.leave(self._on_close)
         finally:
             self._closed = True
@@ -763,6 +790,8 @@ class Panel:
 
     def _show(self, pixels: Levels, max_level: int, force: bool = False) -> Report:
         """Show checked levels."""
+        if self._cycling is not None:
+            return self._show_greys(pixels, max_level, force, self._cycling)
         started = time.perf_counter()
         if self._lock._is_owned():  # type: ignore[attr-defined]
             copy = pixels.copy()
@@ -775,6 +804,39 @@ class Panel:
             finally:
                 if self._later and self._catch_up() and report is not None:
                     self._show_now(pixels, max_level, False, time.perf_counter())
+        return report
+
+    def _show_greys(self, pixels: Levels, max_level: int, force: bool, cycling: Cycling) -> Report:
+        """End the cycle of the last picture and begin one of another."""
+        upright = np.ascontiguousarray(self._upright(pixels))
+        choice, still = cycling.choose(upright, max_level)
+        while cycling.within:
+            time.sleep(max(0.0, cycling.due - time.monotonic()))
+            self._take_turn(cycling)
+        with self._lock:
+            if self._closed or self._foreign:
+                self._check()
+            cycling.begin(choice, upright, max_level, still)
+        return self._take_turn(cycling, force)
+
+    def _take_turn(self, cycling: Cycling, force: bool = False) -> Report:
+        """Show the next sub-picture, and see to the one after."""
+        started = time.perf_counter()
+        report = _QUEUED
+        with self._lock:
+            if self._closed or self._foreign:
+                cycling.stop()
+                return report
+            try:
+                report = _report((*cycling.turn(force), time.perf_counter() - started, False))
+            except BaseException:
+                cycling.stop()
+                raise
+            finally:
+                self._catch_up()
+            self.stats.add(report)
+            if cycling.going and not self._driver.asleep:
+                self._own_sender().wake_at(cycling.due)
         return report
 
     def _catch_up(self) -> bool:
@@ -819,6 +881,10 @@ class Panel:
 
     def _look_after(self) -> None:
         """Do what is due when no other picture came for a while."""
+        if self._cycling is not None:
+            if self._cycling.going and not self._driver.asleep:
+                self._take_turn(self._cycling)
+            return
         with self._lock:
             if self._closed or self._foreign:
                 return
@@ -977,6 +1043,8 @@ def open_panel(url: str | None = None) -> Panel:
         panel = Panel(controller, transport, **wanted.panel)
         unless_done.pop_all()
     panel.simulated = simulated
+    if simulated is not None and panel._cycling is not None:
+        simulated.remembers = True
     if watch:
         watching.follow(panel, watched)
     return panel

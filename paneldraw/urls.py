@@ -22,8 +22,13 @@ _FORMS: Final = {
 }
 _PYSERIAL: Final = ("rfc2217", "socket", "loop")
 _PANEL: Final = {
-    "rotate": "180", "contrast": "200", "on_close": "", "updates": "",
+    "rotate": "180",
+    "contrast": "200",
+    "on_close": "",
+    "updates": "",
     **dict.fromkeys(("refresh", "dim_after", "off_after", "pixel_shift"), "60"),
+    "greys": "4",
+    "bus_clock": "400000",
 }
 """Settings of `Panel`, each with an example where it is a number."""
 _SWITCHES: Final = ("mirror_x", "mirror_y", "mirror_blocks", "charge_pump", "internal_reference", "chained_control")

@@ -15,6 +15,7 @@ from paneldraw.update.greys import (
     EVEN,
     GREYS,
     LEAST_RATE,
+    PACES,
     RESPONSES,
     Cycle,
     Forecast,
@@ -130,6 +131,19 @@ def test_a_picture_without_grey_takes_nothing() -> None:
     choice = choose(forecaster, levels, 3, 4, CLOCK)
     assert choice is not None
     assert (sum(choice.forecast.wire_bytes), choice.forecast.rate(CLOCK)) == (0, float("inf"))
+
+
+def test_a_sub_picture_gets_the_time_of_a_scan() -> None:
+    paces = [(command, 64 * line) for command, line in PACES["ssd1306"]]
+    choice = choose(Forecaster(SSD1306(), COST), disc().pixels, 3, 4, CLOCK, paces=paces)
+    assert choice is not None
+    assert choice.pace == bytes.fromhex("D5 F0")
+    assert choice.slot == pytest.approx(54 * 64 / 510_000)
+    assert choice.rate == pytest.approx(49.19, abs=0.01)
+    slower = choose(Forecaster(SSD1306(), COST), disc().pixels, 3, 4, 330_000, paces=paces)
+    assert slower is not None
+    assert slower.slot in [slot for _, slot in paces]
+    assert slower.forecast.slot(330_000, 0.8) <= slower.slot
 
 
 def test_as_many_greys_as_the_wire_carries() -> None:

@@ -31,6 +31,17 @@ GREYS: Final = (3, 4, 5, 8, 16)
 """How many greys there can be, black and white among them."""
 _WEIGHTS: Final = {3: (1, 1), 4: (1, 2), 5: (1, 1, 2), 8: (1, 2, 4), 16: (1, 2, 4, 8)}
 """What sub-pictures add to the light, where the contrast makes it differ."""
+PACES: Final = {
+    name: tuple((bytes((0xD5, code << 4)), 54 / (210_000 + 20_000 * code)) for code in range(15, -1, -1))
+    for name in ("ssd1306", "ssd1309", "ssd1315", "ssd1312")
+}
+"""Commands that set how fast a chip scans, and the seconds that it takes a line, by chip, the fastest first.
+
+With `STEADY` before them. Assumed: 370 kHz at code 8, as the sheet of the SSD1306 has it, and even steps to the others;
+each chip's own oscillator is off by some percent.
+"""
+STEADY: Final = b"\xd9\x22"
+"""A precharge of 4 of the 54 clocks a line."""
 LEAST_RATE: Final = 40.0
 """Cycles a second below which the eye sees them."""
 
@@ -201,7 +212,7 @@ class Forecaster:
 
     def __init__(self, controller: Controller, cost: Cost, updates: str = "least") -> None:
         self._planner = planner_for(controller, cost, updates)
-        self._pack = packer(controller)
+        self._pack, self._bands = packer(controller), controller.bands
         self._contrast = 0 if controller.contrast is None else cost.command + len(controller.contrast.commands(0)[0])
 
     def packed(self, pictures: Levels) -> list[NDArray[np.uint8]]:
@@ -209,7 +220,7 @@ class Forecaster:
         found = []
         for picture in pictures:
             out = np.zeros_like(self._planner.fresh)
-            self._pack(picture, 1, out)
+            self._pack(np.hstack(np.split(picture, self._bands)), 1, out)
             found.append(out)
         return found
 
@@ -237,6 +248,18 @@ class Choice(NamedTuple):
     """The sub-pictures, in the order in which they are sent."""
     weights: tuple[int, ...]
     forecast: Forecast
+    slot: float
+    """Seconds that each sub-picture gets; 0 where there is no grey."""
+    pace: bytes
+    """The command for a scan that takes as long, so that each sub-picture is scanned once; empty where there is none.
+
+    Else some sub-pictures of a cycle would be scanned twice and others not at all.
+    """
+
+    @property
+    def rate(self) -> float:
+        """Cycles a second."""
+        return 1 / (self.slot * len(self.packed)) if self.slot else float("inf")
 
 
 def choose(
@@ -249,14 +272,21 @@ def choose(
     weighted: bool = False,
     bus_share: float = 0.8,
     gamma: float = 1.0,
+    paces: Sequence[tuple[bytes, float]] = (),
 ) -> Choice | None:
-    """Return the cycle with the most greys, up to `greys`, that keeps to `LEAST_RATE`; None where there is none."""
+    """Return the cycle with the most greys, up to `greys`, that keeps to `LEAST_RATE`; None where there is none.
+
+    `clock` is the bits a second of the wire, and `paces` are commands and the seconds that a scan takes then, rising.
+    """
     for fewer in (grey for grey in reversed(GREYS) if grey <= greys):
         cycle = Cycle(fewer, weighted=weighted)
         packed = forecaster.packed(cycle.pictures(cycle.steps(levels, max_level, gamma)))
         order = cycle.order(packed)
         forecast = forecaster.forecast(cycle, packed, order)
-        if forecast.rate(clock, bus_share) >= LEAST_RATE:
-            weights = tuple(cycle.weights[place] for place in order)
-            return Choice(cycle, [packed[place] for place in order], weights, forecast)
+        needed = forecast.slot(clock, bus_share)
+        pace, slot = next(((pace, slot) for pace, slot in paces if slot >= needed > 0), (b"", needed))
+        weights = tuple(cycle.weights[place] for place in order)
+        choice = Choice(cycle, [packed[place] for place in order], weights, forecast, slot, pace)
+        if choice.rate >= LEAST_RATE:
+            return choice
     return None

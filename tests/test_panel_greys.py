@@ -1,0 +1,214 @@
+"""A panel of one bit that shows greys: its thread, its pictures, and what may happen meanwhile."""
+
+from __future__ import annotations
+
+import threading
+import time
+import warnings
+from collections.abc import Iterator
+
+import numpy as np
+import pytest
+
+from paneldraw import Panel, Supersample, open_panel, simulator
+from paneldraw.controllers import SSD1306, SSD1327
+from paneldraw.errors import PanelError, TransportError
+from paneldraw.transports import I2CTransport
+from paneldraw.update.greys import Cycle
+
+ADDRESS = 0x3C
+
+
+def made(greys: int = 4, **settings: float) -> tuple[Panel, simulator.SSD1306, simulator.I2CBus]:
+    chip = simulator.SSD1306(history=None)
+    bus = simulator.I2CBus({ADDRESS: chip})
+    return Panel(SSD1306(), I2CTransport(bus), greys=greys, **settings), chip, bus  # type: ignore[arg-type]
+
+
+def picture(panel: Panel, x: int = 64) -> np.ndarray:
+    fb = panel.framebuffer()
+    fb.circle(x, 32, 20, fill=True, antialias=Supersample(4))
+    return fb.pixels.copy()
+
+
+def sub_pictures(levels: np.ndarray) -> list[bytes]:
+    cycle = Cycle(4)
+    return [one.tobytes() for one in cycle.pictures(cycle.steps(levels, 3))]
+
+
+def until(happened: object, seconds: float = 5.0) -> bool:
+    end = time.monotonic() + seconds
+    while time.monotonic() < end:
+        if happened():  # type: ignore[operator]
+            return True
+        time.sleep(0.005)
+    return False
+
+
+def threads() -> Iterator[threading.Thread]:
+    return (thread for thread in threading.enumerate() if thread.name == "paneldraw sender")
+
+
+@pytest.mark.parametrize(("greys", "depth"), [(1, 1), (3, 2), (4, 2), (5, 4), (8, 4), (16, 4)])
+def test_the_depth_is_that_of_the_greys(greys: int, depth: int) -> None:
+    with made(greys)[0] as panel:
+        assert (panel.depth, panel.framebuffer().depth) == (depth, depth)
+        assert not list(threads())
+
+
+def test_show_returns_at_once_and_the_sub_pictures_follow_each_other() -> None:
+    panel, chip, _ = made()
+    with panel:
+        levels = picture(panel)
+        assert panel.show(levels).queued
+        assert until(lambda: len(chip.frames) > 12)
+        frames = [frame.pixels.tobytes() for frame in list(chip.frames)]
+    wanted = sub_pictures(levels)
+    assert frames[:12] == wanted * 4
+    assert not list(threads())
+    assert chip.violations == []
+    assert np.array_equal(chip.pixels, levels >= 2)
+
+
+def test_two_pictures_never_mix_within_a_cycle() -> None:
+    panel, chip, _ = made()
+    with panel:
+        shown = [picture(panel, x) for x in (30, 50, 70, 90)]
+        for levels in shown:
+            panel.show(levels)
+            time.sleep(0.03)
+            panel.flush()
+        frames = [frame.pixels.tobytes() for frame in list(chip.frames)]
+    cycles = [sub_pictures(levels) for levels in shown]
+    starts = range(0, len(frames) - 2, 3)
+    assert all(frames[at : at + 3] in cycles for at in starts)
+    assert [cycle in [frames[at : at + 3] for at in starts] for cycle in cycles] == [True] * 4
+
+
+def test_nothing_is_sent_while_there_is_no_grey() -> None:
+    panel, chip, bus = made()
+    with panel:
+        panel.show(picture(panel))
+        assert until(lambda: len(chip.frames) > 6)
+        black_and_white = (picture(panel) >= 2).astype(np.uint8) * 3
+        panel.show(black_and_white)
+        panel.flush()
+        before = bus.bytes
+        time.sleep(0.1)
+        assert bus.bytes == before
+        assert np.array_equal(chip.pixels, black_and_white > 0)
+
+
+def test_asleep_nothing_is_sent() -> None:
+    panel, chip, bus = made()
+    with panel:
+        panel.show(picture(panel))
+        assert until(lambda: len(chip.frames) > 6)
+        panel.sleep()
+        time.sleep(0.05)
+        before, count = bus.bytes, len(chip.frames)
+        time.sleep(0.1)
+        assert bus.bytes == before
+        panel.wake()
+        assert until(lambda: len(chip.frames) > count + 6)
+
+
+def test_a_fault_within_a_cycle_heals() -> None:
+    panel, chip, bus = made()
+    with panel:
+        levels = picture(panel)
+        panel.show(levels)
+        assert until(lambda: len(chip.frames) > 6)
+        bus.fail(at_byte=3)
+        bus.fail(after=5)
+        assert until(lambda: panel.stats.retries >= 2)
+        count = len(chip.frames)
+        assert until(lambda: len(chip.frames) > count + 6)
+        tail = [frame.pixels.tobytes() for frame in list(chip.frames)[-5:]]
+    assert set(tail) <= set(sub_pictures(levels))
+
+
+def test_a_panel_that_is_gone_ends_the_cycle_and_the_next_show_says_so() -> None:
+    panel, chip, bus = made()
+    levels = picture(panel)
+    panel.show(levels)
+    assert until(lambda: len(chip.frames) > 6)
+    del bus.devices[ADDRESS]
+    assert until(lambda: panel._sender is not None and panel._sender.error is not None)
+    with pytest.raises(TransportError):
+        panel.show(levels)
+    bus.devices[ADDRESS] = chip
+    count = len(chip.frames)
+    panel.show(levels)
+    assert until(lambda: len(chip.frames) > count + 6)
+    panel.close()
+    with pytest.raises(PanelError):
+        panel.show(levels)
+
+
+def test_settings_between_sub_pictures_mix_nothing() -> None:
+    panel, chip, _ = made()
+    with panel:
+        levels = picture(panel)
+        panel.show(levels)
+        for level in range(0, 250, 10):
+            panel.contrast(level)
+            time.sleep(0.002)
+        assert until(lambda: len(chip.frames) > 12)
+        panel.rotate = 180
+        panel.show(levels)
+        panel.flush()
+        frames = {frame.pixels.tobytes() for frame in list(chip.frames)}
+    turned = np.ascontiguousarray(levels[::-1, ::-1])
+    assert frames <= {*sub_pictures(levels), *sub_pictures(turned), (turned >= 2).astype(np.uint8).tobytes()}
+    assert chip.contrast == 240
+
+
+def test_too_much_for_the_wire_is_shown_in_fewer_greys_and_said_once() -> None:
+    panel, chip, _ = made(bus_clock=100_000)
+    noise = np.random.default_rng(1).integers(0, 4, (64, 128), np.uint8)
+
+    def shown(levels: np.ndarray) -> None:
+        panel.show(levels)
+        panel.flush()
+
+    with pytest.warns(RuntimeWarning, match="shown in 2 greys instead of 4"):
+        shown(noise)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        shown(noise[::-1])
+    panel.close()
+    assert panel.stats.fewer_greys == 2
+    assert np.array_equal(chip.pixels, noise[::-1] >= 2)
+
+
+@pytest.mark.parametrize(
+    ("settings", "complaint"),
+    [
+        ({"greys": 6}, "greys must be one of 3, 4, 5, 8, 16, not 6"),
+        ({"greys": 4, "bus_share": 0}, "bus_share must be above 0 and at most 1, not 0"),
+        ({"greys": 4, "bus_clock": -1}, "bus_clock must be Hz above 0"),
+        ({"greys": 4, "dim_after": 60}, "must be None with greys"),
+    ],
+)
+def test_settings_that_cannot_be_are_refused(settings: dict[str, int], complaint: str) -> None:
+    with pytest.raises(ValueError, match=complaint):
+        made(**settings)
+
+
+def test_a_chip_with_greys_of_its_own_needs_none() -> None:
+    bus = simulator.I2CBus({ADDRESS: simulator.SSD1327()})
+    with pytest.raises(ValueError, match="greys must be 1 for the ssd1327, which has 16 of its own"):
+        Panel(SSD1327(), I2CTransport(bus), greys=4)
+
+
+def test_a_url_has_them_too() -> None:
+    with open_panel("sim://ssd1306?greys=4") as panel:
+        assert panel.depth == 2
+        levels = picture(panel)
+        panel.show(levels)
+        panel.flush()
+        time.sleep(0.5)
+        seen = panel.simulated.seen(0.3) / (panel.simulated.contrast / 255)
+    assert np.abs(seen - levels / 3)[levels == 3].max() == pytest.approx(0)
+    assert np.abs(seen - levels / 3).mean() < 0.03
