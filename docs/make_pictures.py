@@ -19,6 +19,7 @@ import chip_tables
 import examples
 import figures
 import gallery
+import greys_seen
 import numpy as np
 import screens
 import specimens
@@ -93,6 +94,7 @@ PICTURES: dict[str, Callable[[], Image.Image]] = {
     **figures.pictures(),
     **symptoms.pictures(),
     **specimens.pictures(),
+    **greys_seen.PICTURES,
 }
 
 #: Pages with excerpts or tables, and what makes the tables.

@@ -9,12 +9,14 @@ import random
 import re
 import subprocess
 import sys
+import warnings
 from collections import Counter
 from pathlib import Path
 
 import examples as demo_page
 import figures
 import gallery
+import greys_seen
 import make_pictures
 import numpy as np
 import plain_loops as plain
@@ -174,6 +176,21 @@ def test_each_figure_is_shown_once_with_its_description_and_there_are_no_others(
     assert sorted(name for _, name in shown) == sorted(figures.pictures())
     assert sorted(figures.pictures()) == sorted(f"figures/{file.name}" for file in (DOCS / "figures").iterdir())
     assert all(len(description) > 40 for description, _ in shown)
+
+
+# -- Greys
+
+
+def test_the_picture_of_greys_is_what_the_eye_sees_and_the_page_runs():
+    with Image.open(DOCS / "greys.png") as file:
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")  # no fewer greys than it says
+            drawn = np.asarray(greys_seen.sheet())
+        assert np.array_equal(drawn, np.asarray(file.convert("RGB")))
+    names = {}
+    for block in re.findall(r"^```python\n(.*?)^```$", (DOCS / "greys.md").read_text(encoding="utf-8"), re.M | re.S):
+        exec(block, names)
+    assert (names["panel"].depth, names["fb"].pixels.max()) == (2, 3)
 
 
 # -- Chips

@@ -425,7 +425,10 @@ def _panels(options: argparse.Namespace) -> int:
 
 def _add_check(commands: _Commands) -> None:
     about = "draw a test card in steps and ask what the glass shows: its wiring, and which tricks it obeys"
-    _command(commands, "check", _check, about)
+    parser = _command(commands, "check", _check, about)
+    parser.add_argument(
+        "--greys", action="store_true", help="try instead how many greys a panel of one bit shows steadily"
+    )
 
 
 def _check(options: argparse.Namespace) -> int:
@@ -433,15 +436,21 @@ def _check(options: argparse.Namespace) -> int:
     from paneldraw.panel import open_panel
 
     url = options.panel or os.environ.get("PANELDRAW_PANEL") or "sim://ssd1306"
-    whole = f"{url}{'&' if '?' in url else '?'}updates=whole"
-    with open_panel(whole) as panel:
-        found = check.run(panel, lambda panel, shows: playback.print_panel(panel, f"must show: {shows}"), check.ask)
+    joint = "&" if "?" in url else "?"
+
+    def show(panel: Panel, shows: str) -> None:
+        playback.print_panel(panel, f"must show: {shows}")
+
+    if options.greys:
+        found = check.run_greys(lambda greys: open_panel(f"{url}{joint}greys={greys}"), show, check.ask)
+    else:
+        with open_panel(f"{url}{joint}updates=whole") as panel:
+            found = check.run(panel, show, check.ask)
     for advice in found.advice:
         print(f"add to the URL: {advice}; then check again")
     if not found.advice:
         query = "&".join(found.parameters)
-        joint = ("&" if "?" in url else "?") if query else ""
-        print(f"use: {url}{joint}{query}")
+        print(f"use: {url}{joint if query else ''}{query}")
     return 0
 
 

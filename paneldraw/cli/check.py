@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from paneldraw.raster.coverage import Supersample
 from paneldraw.transports.base import CHAINED, DATA, Plan
 
 if TYPE_CHECKING:
@@ -168,6 +169,38 @@ def run(panel: Panel, show: Callable[[Panel, str], None], ask: Callable[[str], s
     if not plain and not found.parameters:
         found.parameters.append("chained_control=1")
     _brightness(panel, fb, show, ask, found)
+    return found
+
+
+def greys_card(fb: Framebuffer) -> None:
+    """Draw the card for greys: a bar of each level, a smooth line and a disc."""
+    fb.clear()
+    bars = fb.max_level + 1
+    for level in range(bars):
+        fb.rect(level * 4, 0, 4, 8, level, fill=True)
+    x, y, radius = 3 * fb.width // 4, fb.height // 2, fb.height // 4
+    fb.circle(x, y, radius, fill=True, antialias=Supersample(4))
+    fb.line(4, fb.height - 8, fb.width // 2, fb.height // 2, width=2, antialias=Supersample(4))
+
+
+def run_greys(
+    open_greys: Callable[[int], Panel], show: Callable[[Panel, str], None], ask: Callable[[str], str]
+) -> Findings:
+    """Try greys, the most first, until a person sees them steady; `open_greys` opens the panel with so many."""
+    found = Findings()
+    for greys in (4, 3):
+        with open_greys(greys) as panel:
+            fb = panel.framebuffer()
+            greys_card(fb)
+            panel.show(fb)
+            panel.flush()
+            show(panel, f"bars in {greys} greys at the top left, a smooth line and a disc, all steady")
+            answer = ask(f"{greys} greys: is it so? y: yes; f: it flickers; b: bands wander; n: no greys ")
+        if answer == "y":
+            found.parameters.append(f"greys={greys}")
+            return found
+        if answer == "f":
+            found.advice.append("a faster bus, and bus_clock= with its rate")
     return found
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import time
+
 import numpy as np
 import pytest
 
@@ -127,3 +129,31 @@ def test_the_last_acts_of_a_service(command, on, monkeypatch):
 def test_text_inverted(capsys):
     assert main(["text", "hi", "--invert"]) == 0
     assert "█" * 40 in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(("answers", "greys"), [("y", "greys=4"), ("fy", "greys=3"), ("bn", "")])
+def test_greys_are_tried_until_they_are_steady(answers, greys):
+    asked, opened = iter(answers), []
+
+    def open_greys(count):
+        opened.append(open_panel(f"sim://ssd1306?greys={count}"))
+        return opened[-1]
+
+    levels = []
+
+    def show(panel, shows):
+        time.sleep(0.1)
+        levels.append(panel.depth)
+
+    found = check.run_greys(open_greys, show, lambda _: next(asked))
+    assert found.parameters == ([greys] if greys else [])
+    assert found.advice == (["a faster bus, and bus_clock= with its rate"] if "f" in answers else [])
+    assert levels == [2] * len(answers)
+    assert not any(panel.stats.fewer_greys for panel in opened)
+    assert opened[0].stats.frames >= 3  # a cycle at least
+
+
+def test_greys_are_checked_from_the_shell(monkeypatch, capsys):
+    monkeypatch.setattr(check, "ask", lambda question: "y")
+    assert main(["check", "--greys", "--panel", "sim://ssd1306"]) == 0
+    assert capsys.readouterr().out.endswith("use: sim://ssd1306?greys=4\n")
