@@ -212,3 +212,20 @@ def test_a_url_has_them_too() -> None:
         seen = panel.simulated.seen(0.3) / (panel.simulated.contrast / 255)
     assert np.abs(seen - levels / 3)[levels == 3].max() == pytest.approx(0)
     assert np.abs(seen - levels / 3).mean() < 0.03
+
+
+def test_two_panels_share_a_bus() -> None:
+    chips = {address: simulator.SSD1306(history=None) for address in (0x3C, 0x3D)}
+    bus = simulator.I2CBus(chips)
+    bus.realtime = True
+    panels = [Panel(SSD1306(), I2CTransport(bus, address), greys=4, bus_share=0.4) for address in chips]
+    for panel in panels:
+        fb = panel.framebuffer()
+        fb.circle(64, 32, 10, fill=True, antialias=Supersample(4))
+        panel.show(fb)
+    assert until(lambda: all(panel.stats.frames > 30 for panel in panels))
+    frames = [panel.stats.frames for panel in panels]
+    assert max(frames) < 1.5 * min(frames)
+    for panel, chip in zip(panels, chips.values(), strict=True):
+        panel.close()
+        assert chip.violations == []
