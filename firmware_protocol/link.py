@@ -354,12 +354,12 @@ class HostLink:
         if received:
             return (
                 f"something talks on {self._line.name} ({received} bytes in {self.timeout:g} s), and it is not "
-                f"paneldraw's firmware at {BASE_BAUDRATE} baud: check the port, or flash the firmware "
-                "(firmware_protocol/firmware/README.md in its sources)"
+                f"paneldraw's firmware at {BASE_BAUDRATE} baud: check the port, or flash the firmware: "
+                "paneldraw firmware flash"
             )
         return (
             f"nothing answers on {self._line.name} at {BASE_BAUDRATE} baud: check the port and the cable, and that the "
-            "board runs paneldraw's firmware (firmware_protocol/firmware/README.md in its sources)"
+            f"board runs paneldraw's firmware: paneldraw firmware flash {self._line.name}"
         )
 
     def _accept(self, reply: HelloReply) -> None:

@@ -1,4 +1,4 @@
-"""``paneldraw firmware``: who answers on a serial port, and how the line to it does."""
+"""``paneldraw firmware``: who answers on a serial port, how the line to it does, and what `flashing` adds."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ from statistics import mean, median
 from typing import TYPE_CHECKING, Any, Final
 
 from paneldraw import urls
+from paneldraw.cli import flashing
 from paneldraw.errors import PanelNotFoundError, TransportError
 
 if TYPE_CHECKING:
@@ -32,6 +33,7 @@ def add(commands: Any, count: Number, seconds: Number) -> None:
     actions = parser.add_subparsers(title="actions", metavar="ACTION", required=True)
     ports = actions.add_parser("ports", help="list the serial ports", description="list the serial ports")
     ports.set_defaults(run=_ports)
+    flashing.add(actions, lambda: _default().port)
     for name, run, help in (
         ("info", _info, "say what answers on a port"),
         ("monitor", _monitor, "print the board's counters, live, until Ctrl-C"),

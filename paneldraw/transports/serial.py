@@ -100,7 +100,7 @@ class SerialTransport:
             raise TypeError(f"port must be a name, a URL or an object with pyserial's interface, not {port!r}")
         self._answered = False
         self._fresh = False  # whether nothing was sent since the last reset
-        opened = _open(os.fspath(port), timeout) if named else port
+        opened = open_port(os.fspath(port), timeout) if named else port
         self.name = str(getattr(opened, "name", None) or getattr(opened, "port", None) or type(opened).__name__)
         try:
             with self._translating():
@@ -217,7 +217,8 @@ class SerialTransport:
         return transient(failed) if self._answered else failed
 
 
-def _open(name: str, patience: float) -> Any:
+def open_port(name: str, patience: float) -> Any:
+    """Return pyserial's port of a name, or raise what says why it cannot be had; `patience` is for writing."""
     import serial  # not needed by a script that never opens a port
 
     from firmware_protocol.line import PORT_ERRORS
