@@ -11,6 +11,7 @@ import importlib.abc
 import importlib.machinery
 import importlib.util
 import sys
+import warnings
 from collections.abc import Sequence
 from types import ModuleType
 from typing import Any
@@ -112,6 +113,7 @@ class _WhenNeeded(importlib.abc.MetaPathFinder, importlib.abc.Loader):
     ) -> importlib.machinery.ModuleSpec | None:
         if fullname not in MODULES or getattr(sys.modules.get(__name__), "__dict__", None) is not globals():
             return None  # that of another copy of the package
+        _warn()
         load_sources()
         sys.meta_path.remove(self)
         module = sys.modules[fullname]
@@ -130,3 +132,45 @@ class _WhenNeeded(importlib.abc.MetaPathFinder, importlib.abc.Loader):
 def load_when_needed() -> None:
     """Have `MODULES` imported as plain Python where one of them is imported first."""
     sys.meta_path.insert(0, _WhenNeeded())
+
+
+def rebuild() -> str:
+    """Return the command that compiles this install where there is a C compiler now.
+
+    What was built without one is in pip's cache, and pip would install that again; a wheel from elsewhere was not built
+    here at all.
+    """
+    import shlex
+
+    command = [sys.executable, "-m", "pip", "install", "--force-reinstall", "--no-deps", "--no-cache-dir"]
+    return shlex.join([*command, "--no-binary", "paneldraw", *_origin()])
+
+
+def _origin() -> list[str]:
+    """Return what pip was asked to install, as arguments for it."""
+    import importlib.metadata
+    import json
+
+    try:
+        recorded = importlib.metadata.distribution("paneldraw").read_text("direct_url.json")
+    except importlib.metadata.PackageNotFoundError:
+        return ["--editable", str(PACKAGE.parent)]
+    if recorded is None:
+        return ["paneldraw"]
+    origin = json.loads(recorded)
+    url = origin["url"]
+    if "vcs_info" in origin:
+        return [f"{origin['vcs_info']['vcs']}+{url}@{origin['vcs_info']['commit_id']}"]
+    if origin.get("dir_info", {}).get("editable"):
+        return ["--editable", url]
+    return [url]
+
+
+def _warn() -> None:
+    """Say once that drawing is slow where it need not be, as a compiler is a package away."""
+    if sys.platform == "linux":
+        warnings.warn(
+            f"paneldraw draws interpreted, which is slow; install a C compiler, then run: {rebuild()}",
+            RuntimeWarning,
+            stacklevel=2,
+        )

@@ -60,6 +60,7 @@ def test_the_build_compiles_what_the_package_expects(monkeypatch):
     for module in (setuptools, types.ModuleType("setuptools.command"), command):
         monkeypatch.setitem(sys.modules, module.__name__, module)
     monkeypatch.chdir(PROJECT)
+    monkeypatch.delenv("PANELDRAW_PURE", raising=False)
     runpy.run_path("setup.py")
     (keywords,) = asked
     preloaded = ["paneldraw.simulator._preload"] if sys.platform == "linux" else []
@@ -141,6 +142,24 @@ def test_the_stand_in_leaves_no_trace(sources):
     file, names = run(sources.folder, code)
     assert Path(file).is_relative_to(sources.folder)
     assert names == "[]"
+
+
+def warned(folder, code, *options):
+    done = subprocess.run([sys.executable, *options, "-c", code], capture_output=True, text=True, cwd=folder)
+    assert done.returncode == 0, done.stderr
+    return [line for line in done.stderr.splitlines() if "Warning" in line]
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="where a compiler is a package away")
+def test_sources_say_once_that_they_are_slow_and_what_mends_it(sources):
+    draw = "from paneldraw import Framebuffer, Supersample; Framebuffer(8, 8).line(0, 0, 7, 7); import paneldraw.panel"
+    (said,) = warned(sources.folder, draw)
+    assert "RuntimeWarning: paneldraw draws interpreted, which is slow; install a C compiler, then run: " in said
+    assert f"{sys.executable} -m pip install " in said
+    assert warned(sources.folder, draw, "-W", "ignore:paneldraw draws interpreted") == []
+    assert warned(sources.folder, "import paneldraw, paneldraw.testing.plugin") == []
+    assert warned(sources.folder, "import sys; sys.platform = 'darwin'; " + draw) == []
+    assert warned(PROJECT, draw) == []
 
 
 def test_a_cython_of_the_users_own_stays(sources):

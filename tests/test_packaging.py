@@ -9,8 +9,8 @@ import re
 import shutil
 import subprocess
 import sys
+import tarfile
 import zipfile
-from importlib.metadata import version
 from pathlib import Path
 
 import make_pictures
@@ -20,7 +20,8 @@ import pytest
 import paneldraw
 
 PROJECT = Path(__file__).parent.parent
-INFO = f"paneldraw-{version('paneldraw')}.dist-info"
+VERSION = re.search(r'^version = "(.*)"$', (PROJECT / "pyproject.toml").read_text(encoding="utf-8"), re.M)[1]
+INFO = f"paneldraw-{VERSION}.dist-info"
 
 #: The environment of someone for whom Python finds no package but those that are installed.
 STRANGERS = {name: value for name, value in os.environ.items() if not name.startswith(("PYTHON", "PANELDRAW"))}
@@ -39,6 +40,15 @@ print(json.dumps([_compiled.COMPILED, fb.pixels.tolist()]))
 """
 
 
+def versioned():
+    """The names of all files under version control, and of those that are about to be."""
+    command = ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"]
+    done = subprocess.run(command, cwd=PROJECT, capture_output=True)
+    if done.returncode:
+        pytest.skip("this is no clone")
+    return [name for name in done.stdout.decode().split("\0") if name and (PROJECT / name).is_file()]
+
+
 @pytest.fixture(scope="module")
 def without_compiler(tmp_path_factory):
     """A fresh copy of the project in which the README's first line was run where no C compiler works.
@@ -46,16 +56,9 @@ def without_compiler(tmp_path_factory):
     Without compiling, that takes a quarter of a minute, and serves all tests here.
     """
     folder = tmp_path_factory.mktemp("clone")
-    names = subprocess.run(
-        ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
-        cwd=PROJECT,
-        capture_output=True,
-        check=True,
-    ).stdout
-    for name in filter(None, names.decode().split("\0")):
-        if (PROJECT / name).is_file():
-            (folder / name).parent.mkdir(parents=True, exist_ok=True)
-            shutil.copyfile(PROJECT / name, folder / name)
+    for name in versioned():
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copyfile(PROJECT / name, folder / name)
     environment = STRANGERS | {"CC": "/bin/false"}
 
     def run(command):
@@ -85,6 +88,18 @@ def wheel(without_compiler):
         yield file
 
 
+@pytest.fixture(scope="module")
+def sdist(without_compiler, tmp_path_factory):
+    """What is built there for others to build from."""
+    folder = tmp_path_factory.mktemp("sdist")
+    tools = ".venv/bin/python -m venv build && build/bin/pip install 'setuptools>=77'"
+    code = f"from setuptools.build_meta import build_sdist; build_sdist('{folder}')"
+    done = without_compiler(f'{tools} && build/bin/python -c "{code}"')
+    assert done.returncode == 0, done.stdout + done.stderr
+    (built,) = folder.glob("paneldraw-*.tar.gz")
+    return built
+
+
 @pytest.mark.thorough
 def test_the_first_line_runs_the_demo(without_compiler):
     picture = re.search(r"┌─+┐\n(?:│.{128}│\n)+└─+┘\n", without_compiler.first.stdout)
@@ -111,14 +126,16 @@ def test_the_wheel_holds_the_packages_and_nothing_else(wheel):
     names = wheel.namelist()
     assert {name.partition("/")[0] for name in names} == {"paneldraw", "firmware_protocol", INFO}
     kinds = {Path(name).suffix for name in names if ".dist-info/" not in name}
-    assert kinds <= {".py", ".pxd", ".typed", ".md", ".txt", ".html"}
+    assert kinds <= {".py", ".pxd", ".typed", ".md", ".txt", ".html", ".c", ".h", ".ld", ".hex", ""}
     expected = {
         str(file.relative_to(PROJECT))
         for package in ("paneldraw", "firmware_protocol")
         for pattern in ("**/*.py", "**/*.pxd", "py.typed", "PROTOCOL.md", "**/*.txt", "simulator/page.html")
         for file in (PROJECT / package).glob(pattern)
-        if "firmware_protocol/firmware/" not in file.as_posix()
     }
+    expected.update(name for name in versioned() if name.startswith("firmware_protocol/firmware/"))
+    assert {Path(name).name for name in expected} >= {"Makefile", "link.ld", "atmega328p-spi.hex", "bus.c", "bus.h"}
+    assert not [name for name in names if name.endswith(".c") and not name.startswith("firmware_protocol/firmware/")]
     assert expected <= set(names)
     assert {"paneldraw/py.typed", "firmware_protocol/py.typed"} <= expected
     assert {"firmware_protocol/vectors/conversations.txt", "paneldraw/text/builtin/ascii.txt"} <= expected
@@ -141,7 +158,42 @@ def test_the_metadata(wheel):
     scripts = wheel.read(f"{INFO}/entry_points.txt").decode()
     assert "paneldraw = paneldraw.cli:main" in scripts
     assert "[pytest11]\npaneldraw = paneldraw.testing.plugin" in scripts
-    assert metadata["Version"] in (PROJECT / "CHANGELOG.md").read_text(encoding="utf-8")
+    assert metadata["Version"] == VERSION
+    assert f"\n## {VERSION}" in (PROJECT / "CHANGELOG.md").read_text(encoding="utf-8")
+    addresses = dict(line.split(", ") for line in metadata.get_all("Project-URL"))
+    assert {"Source", "Documentation", "Issues", "Changelog"} == addresses.keys()
+
+
+def test_the_readme_of_an_index_leads_to_the_files_of_its_version(wheel):
+    """No link and no picture but with a whole address, which ends in the name of a file here."""
+    metadata = email.message_from_bytes(wheel.read(f"{INFO}/METADATA"))
+    assert metadata["Description-Content-Type"] == "text/markdown"
+    text = metadata.get_payload()
+    here = (PROJECT / "README.md").read_text(encoding="utf-8")
+    links, own = (re.findall(r"(!?)\[[^]]*\]\(([^)]*)\)", page) for page in (text, here))
+    assert len(links) == len(own) > 15
+    home = dict(line.split(", ") for line in metadata.get_all("Project-URL"))["Source"]
+    for (picture, address), (_, target) in zip(links, own, strict=True):
+        kind = "raw" if picture else "blob"
+        assert address == target if target.startswith("https:") else f"{home}/{kind}/v{VERSION}/{target}" == address
+
+
+def test_the_wheel_for_all_machines_has_nothing_compiled(without_compiler, wheel):
+    done = without_compiler("PANELDRAW_PURE=1 .venv/bin/pip wheel --no-deps --wheel-dir pure .")
+    assert done.returncode == 0, done.stdout + done.stderr
+    (built,) = (without_compiler.folder / "pure").iterdir()
+    assert built.name == f"paneldraw-{VERSION}-py3-none-any.whl"
+    with zipfile.ZipFile(built) as file:
+        assert sorted(file.namelist()) == sorted(wheel.namelist())
+        assert b"Root-Is-Purelib: true" in file.read(f"{INFO}/WHEEL")
+
+
+@pytest.mark.thorough
+def test_the_source_distribution_is_whole(sdist):
+    with tarfile.open(sdist) as file:
+        names = {name.partition("/")[2] for name in file.getnames() if file.getmember(name).isfile()}
+    made = {name for name in names if name in ("PKG-INFO", "setup.cfg") or ".egg-info/" in name}
+    assert sorted(names - made) == sorted(set(versioned()) - {".gitignore"})
 
 
 USER = """
@@ -195,13 +247,9 @@ def test_public_names():
 
 
 @pytest.mark.thorough
-def test_the_command_that_info_gives_compiles_what_pip_kept_interpreted(without_compiler, tmp_path):
+def test_the_command_that_info_gives_compiles_what_pip_kept_interpreted(sdist, tmp_path):
     """As a user meets it: installed from an index, here a folder, where no compiler was, with one there later."""
-    tools = ".venv/bin/python -m venv build && build/bin/pip install 'setuptools>=77'"
-    sdist = f"from setuptools.build_meta import build_sdist; build_sdist('{tmp_path}')"
-    done = without_compiler(f'{tools} && build/bin/python -c "{sdist}"')
-    assert done.returncode == 0, done.stdout + done.stderr
-    assert list(tmp_path.glob("paneldraw-*.tar.gz"))
+    shutil.copy(sdist, tmp_path)
 
     def run(command, **names):
         environment = STRANGERS | {"PIP_FIND_LINKS": str(tmp_path), "PIP_CACHE_DIR": str(tmp_path / "cache")} | names

@@ -124,7 +124,7 @@ def _parser() -> argparse.ArgumentParser:
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
     for add in (
         *(_add_demo, _add_show, _add_text, _add_clear, _add_off, _add_panels, _add_detect, _add_check, _add_info),
-        *(_add_bench, _add_firmware, _add_sim, _add_view, _add_replay),
+        *(_add_bench, _add_firmware, _add_sim, _add_view, _add_replay, _add_completion),
     ):
         add(commands)
     return parser
@@ -532,3 +532,22 @@ def _add_sim(commands: _Commands) -> None:
     from paneldraw.cli import sim
 
     sim.add(commands, _save_path)
+
+
+def _add_completion(commands: _Commands) -> None:
+    about = "print what lets a shell complete this command's words; its help says where to put it"
+    where = "bash: ~/.local/share/bash-completion/completions/paneldraw\nzsh: _paneldraw in a folder of $fpath"
+    parser = commands.add_parser(
+        "completion", help=about, description=about, epilog=where, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("shell", choices=("bash", "zsh", "tcsh"))
+    parser.set_defaults(run=_completion)
+
+
+def _completion(options: argparse.Namespace) -> int:
+    try:
+        import shtab
+    except ModuleNotFoundError:
+        raise _UserError("shtab is not installed; run: pip install 'paneldraw[completion]'") from None
+    print(shtab.complete(_parser(), options.shell))
+    return 0

@@ -5,19 +5,16 @@ from __future__ import annotations
 import contextlib
 import errno
 import importlib.metadata
-import json
 import os
 import platform
 import re
 import shlex
-import sys
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 from urllib.parse import urlsplit
 
-import paneldraw
 from paneldraw.errors import TransportError
 from paneldraw.transports import I2CTransport
 from paneldraw.transports.i2c import probe
@@ -98,35 +95,9 @@ def describe(panel: Panel) -> str:
 
 def _speed() -> str:
     from paneldraw._compiled import COMPILED
+    from paneldraw._interpreted import rebuild
 
     return "compiled" if COMPILED else f"interpreted, which is slow; install a C compiler, then run: {rebuild()}"
-
-
-def rebuild() -> str:
-    """Return the command that compiles this install where there is a C compiler now.
-
-    What was built without one is in pip's cache, and pip would install that again; a wheel from elsewhere was not built
-    here at all.
-    """
-    command = [sys.executable, "-m", "pip", "install", "--force-reinstall", "--no-deps", "--no-cache-dir"]
-    return shlex.join([*command, "--no-binary", "paneldraw", *_origin()])
-
-
-def _origin() -> list[str]:
-    """Return what pip was asked to install, as arguments for it."""
-    try:
-        recorded = importlib.metadata.distribution("paneldraw").read_text("direct_url.json")
-    except importlib.metadata.PackageNotFoundError:
-        return ["--editable", str(Path(paneldraw.__file__).parent.parent)]
-    if recorded is None:
-        return ["paneldraw"]
-    origin = json.loads(recorded)
-    url = origin["url"]
-    if "vcs_info" in origin:
-        return [f"{origin['vcs_info']['vcs']}+{url}@{origin['vcs_info']['commit_id']}"]
-    if origin.get("dir_info", {}).get("editable"):
-        return ["--editable", url]
-    return [url]
 
 
 def _machine() -> str:

@@ -13,7 +13,7 @@ import pytest
 from PIL import Image
 from running import ENVIRONMENT, assert_one_line_of_advice, lit, picture_of
 
-from paneldraw.cli import main, playback
+from paneldraw.cli import _parser, main, playback
 
 COMMANDS = ["demo", "show", "text", "detect", "info"]
 
@@ -297,3 +297,32 @@ def test_a_module_of_the_command_costs_little():
     code = "import sys, paneldraw.cli; print([m for m in ('PIL', 'smbus2', 'serial') if m in sys.modules])"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, timeout=60)
     assert done.stdout.strip() == "[]"
+
+
+@pytest.mark.parametrize("shell", ["bash", "zsh", "tcsh"])
+def test_completion_knows_every_command(shell, capsys):
+    pytest.importorskip("shtab")
+    assert main(["completion", shell]) == 0
+    script = capsys.readouterr().out
+    commands = _parser()._subparsers._group_actions[0].choices
+    assert len(commands) > 12
+    assert [name for name in commands if name not in script] == []
+
+
+@pytest.mark.skipif(not shutil.which("bash"), reason="bash is not installed")
+def test_bash_completes_words(capsys):
+    pytest.importorskip("shtab")
+    main(["completion", "bash"])
+    ask = """
+    COMP_WORDS=(paneldraw firmware f); COMP_CWORD=2
+    "$(complete -p paneldraw | sed 's/.*-F //; s/ .*//')"
+    echo "${COMPREPLY[@]}"
+    """
+    done = subprocess.run(["bash", "-c", capsys.readouterr().out + ask], capture_output=True, text=True)
+    assert (done.stdout, done.stderr) == ("flash\n", "")
+
+
+def test_completion_says_what_it_needs(monkeypatch, capsys):
+    monkeypatch.setitem(sys.modules, "shtab", None)
+    assert main(["completion", "bash"]) == 1
+    assert capsys.readouterr().err == "paneldraw: shtab is not installed; run: pip install 'paneldraw[completion]'\n"

@@ -19,6 +19,7 @@ import smbus2
 
 import paneldraw
 from paneldraw import _compiled, simulator
+from paneldraw._interpreted import rebuild
 from paneldraw.cli import diagnostics, main
 from paneldraw.framebuffer import Framebuffer
 
@@ -256,7 +257,7 @@ def test_the_command_that_compiles_installs_from_where_it_came(monkeypatch, reco
             return None if recorded is None else json.dumps(recorded)
 
     monkeypatch.setattr(importlib.metadata, "distribution", lambda name: Distribution())
-    words = shlex.split(diagnostics.rebuild())
+    words = shlex.split(rebuild())
     assert words[:4] == [sys.executable, "-m", "pip", "install"]
     assert {"--force-reinstall", "--no-cache-dir", "--no-binary", "--no-deps"} <= set(words)
     assert words[-len(asked) :] == asked
@@ -267,13 +268,13 @@ def test_what_is_not_installed_is_compiled_where_it_lies(monkeypatch):
         raise importlib.metadata.PackageNotFoundError(name)
 
     monkeypatch.setattr(importlib.metadata, "distribution", missing)
-    assert shlex.split(diagnostics.rebuild())[-2:] == ["--editable", str(Path(paneldraw.__file__).parent.parent)]
+    assert shlex.split(rebuild())[-2:] == ["--editable", str(Path(paneldraw.__file__).parent.parent)]
 
 
 def test_info_tells_an_interpreted_install_how_to_compile(monkeypatch):
     monkeypatch.setattr(_compiled, "COMPILED", False)
     told = dict(diagnostics.info())["drawing"]
     assert told.startswith("interpreted")
-    assert told.endswith(f"run: {diagnostics.rebuild()}")
+    assert told.endswith(f"run: {rebuild()}")
     monkeypatch.setattr(_compiled, "COMPILED", True)
     assert dict(diagnostics.info())["drawing"] == "compiled"
