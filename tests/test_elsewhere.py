@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -103,6 +104,17 @@ def test_the_plugin_hands_out_panels(tmp_path):
     done = run(SESSION, cwd=tmp_path)
     assert done.returncode == 0, done.stdout + done.stderr
     assert "2 passed" in done.stdout
+
+
+@pytest.mark.thorough
+def test_what_ci_runs_on_windows_passes():
+    chosen = re.findall(r"\btests/\S+", (PROJECT / ".github/workflows/ci.yml").read_text(encoding="utf-8"))
+    chosen.remove("tests/test_elsewhere.py")
+    assert len(chosen) > 6
+    done = run(SESSION, *chosen)
+    assert done.returncode == 0, done.stdout[-3000:] + done.stderr
+    assert " passed" in done.stdout
+    assert " skipped" not in done.stdout
 
 
 @pytest.mark.thorough

@@ -21,7 +21,7 @@ import paneldraw
 
 PROJECT = Path(__file__).parent.parent
 VERSION = re.search(r'^version = "(.*)"$', (PROJECT / "pyproject.toml").read_text(encoding="utf-8"), re.M)[1]
-INFO = f"paneldraw-{VERSION}.dist-info"
+INFO, DATA = f"paneldraw-{VERSION}.dist-info", f"paneldraw-{VERSION}.data"
 
 #: The environment of someone for whom Python finds no package but those that are installed.
 STRANGERS = {name: value for name, value in os.environ.items() if not name.startswith(("PYTHON", "PANELDRAW"))}
@@ -124,9 +124,10 @@ def test_compiled_and_interpreted_installs_draw_the_same(without_compiler):
 
 def test_the_wheel_holds_the_packages_and_nothing_else(wheel):
     names = wheel.namelist()
-    assert {name.partition("/")[0] for name in names} == {"paneldraw", "firmware_protocol", INFO}
+    assert {name.partition("/")[0] for name in names} == {"paneldraw", "firmware_protocol", INFO, DATA}
+    assert [name for name in names if name.startswith(DATA)] == [f"{DATA}/data/share/man/man1/paneldraw.1"]
     kinds = {Path(name).suffix for name in names if ".dist-info/" not in name}
-    assert kinds <= {".py", ".pxd", ".typed", ".md", ".txt", ".html", ".c", ".h", ".ld", ".hex", ""}
+    assert kinds <= {".py", ".pxd", ".typed", ".md", ".txt", ".html", ".c", ".h", ".ld", ".hex", ".1", ""}
     expected = {
         str(file.relative_to(PROJECT))
         for package in ("paneldraw", "firmware_protocol")

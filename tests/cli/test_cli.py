@@ -326,3 +326,12 @@ def test_completion_says_what_it_needs(monkeypatch, capsys):
     monkeypatch.setitem(sys.modules, "shtab", None)
     assert main(["completion", "bash"]) == 1
     assert capsys.readouterr().err == "paneldraw: shtab is not installed; run: pip install 'paneldraw[completion]'\n"
+
+
+@pytest.mark.skipif(sys.version_info[:2] != (3, 11), reason="argparse of another Python writes other usage lines")
+def test_the_man_page_is_what_the_parser_says():
+    pytest.importorskip("argparse_manpage")
+    import man_page
+
+    assert man_page.PAGE.read_text(encoding="utf-8") == man_page.page(), "run docs/man_page.py"
+    assert r"paneldraw firmware flash" in man_page.page().replace(r"\fR", "").replace(r"\fI\,", "").replace(r"\/", "")

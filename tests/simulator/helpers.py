@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-import smbus2
 from numpy.typing import NDArray
 
 from paneldraw import simulator
@@ -72,6 +71,9 @@ class BusioI2C:
     """What ``busio.I2C`` does on Linux, on real smbus2 messages."""
 
     def __init__(self, bus: simulator.I2CBus) -> None:
+        from smbus2 import i2c_msg  # not to be had on Windows, where other things of this file are used
+
+        self.i2c_msg = i2c_msg
         self.bus = bus
         self.locked = False
 
@@ -84,16 +86,16 @@ class BusioI2C:
 
     def writeto(self, address: int, buffer: Any, *, start: int = 0, end: int | None = None) -> None:
         assert self.locked
-        self.bus.i2c_rdwr(smbus2.i2c_msg.write(address, bytes(buffer[start:end])))
+        self.bus.i2c_rdwr(self.i2c_msg.write(address, bytes(buffer[start:end])))
 
     def writeto_then_readfrom(self, address: int, out: Any, answer: Any, **ends: Any) -> None:
         assert self.locked
-        wanted = smbus2.i2c_msg.read(address, len(answer))
-        self.bus.i2c_rdwr(smbus2.i2c_msg.write(address, bytes(out)), wanted)
+        wanted = self.i2c_msg.read(address, len(answer))
+        self.bus.i2c_rdwr(self.i2c_msg.write(address, bytes(out)), wanted)
         answer[:] = bytes(wanted)
 
     def readfrom_into(self, address: int, buffer: Any, *, start: int = 0, end: int | None = None) -> None:
         assert self.locked
-        answer = smbus2.i2c_msg.read(address, len(buffer[start:end]))
+        answer = self.i2c_msg.read(address, len(buffer[start:end]))
         self.bus.i2c_rdwr(answer)
         buffer[start:end] = bytes(answer)
