@@ -142,7 +142,10 @@ def rebuild() -> str:
     """
     import shlex
 
-    command = [sys.executable, "-m", "pip", "install", "--force-reinstall", "--no-deps", "--no-cache-dir"]
+    if importlib.util.find_spec("pip"):
+        command = [sys.executable, "-m", "pip", "install", "--force-reinstall", "--no-deps", "--no-cache-dir"]
+    else:  # uv made this environment
+        command = ["uv", "pip", "install", "--python", sys.executable, "--reinstall", "--no-deps", "--no-cache"]
     return shlex.join([*command, "--no-binary", "paneldraw", *_origin()])
 
 

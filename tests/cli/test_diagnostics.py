@@ -271,6 +271,13 @@ def test_what_is_not_installed_is_compiled_where_it_lies(monkeypatch):
     assert shlex.split(rebuild())[-2:] == ["--editable", str(Path(paneldraw.__file__).parent.parent)]
 
 
+def test_where_there_is_no_pip_uv_compiles(monkeypatch):
+    monkeypatch.setattr("importlib.util.find_spec", {}.get)
+    words = shlex.split(rebuild())
+    assert words[:5] == ["uv", "pip", "install", "--python", sys.executable]
+    assert {"--reinstall", "--no-deps", "--no-cache", "--no-binary"} <= set(words)
+
+
 def test_info_tells_an_interpreted_install_how_to_compile(monkeypatch):
     monkeypatch.setattr(_compiled, "COMPILED", False)
     told = dict(diagnostics.info())["drawing"]
