@@ -223,7 +223,7 @@ def test_signatures_are_pythons(package, name):
         said = inspect.formatannotation(parameter.annotation).strip("'")
         assert not any(word in said for word in ("_empty", "double", "long", "ssize_t", "bint", "unicode", "cython"))
         if parameter.name in LENGTHS and name != "view":
-            assert said == "int | float"
+            assert said == ("int | float | None" if parameter.default is None else "int | float")
         if parameter.name in WORDS:
             assert said == "str"
 

@@ -365,4 +365,4 @@ def test_the_builds_of_the_readme(tmp_path: Path) -> None:
 
 def test_the_readme_names_the_files_that_are_made() -> None:
     text = (FIRMWARE / "README.md").read_text()
-    assert re.search(r"avrdude .*build/atmega328p/paneldraw\.hex", text)
+    assert re.search(r"firmware flash .*--file .*build/atmega328p/paneldraw\.hex", text)
