@@ -45,16 +45,6 @@ def badge(package, monkeypatch):
     return Badge
 
 
-@pytest.fixture(autouse=True)
-def interpreted_in_place(request, package):
-    """`pickle` finds classes by the names of modules."""
-    if package._compiled.COMPILED:
-        yield
-    else:
-        with request.getfixturevalue("sources").in_place():
-            yield
-
-
 @pytest.mark.parametrize("way", WAYS)
 def test_a_copy_is_equal_and_has_pixels_of_its_own(package, way):
     fb = drawn_on(package.Framebuffer(12, 7, 4, antialias=package.ConeFilter(1.5)))
