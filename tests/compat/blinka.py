@@ -23,6 +23,9 @@ class Busio:
     def unlock(self) -> None:
         self._locked = False
 
+    def deinit(self) -> None:
+        self._locked = True
+
     def writeto(self, address: int, buffer: Any, *, start: int = 0, end: int | None = None) -> None:
         assert self._locked
         self._bus.i2c_rdwr(smbus2.i2c_msg.write(address, bytes(buffer[start:end])))

@@ -16,7 +16,7 @@ from paneldraw import simulator
 from paneldraw.compat import framebuf, machine, micropython
 
 HERE = Path(__file__).parent
-PAGE = HERE.parent.parent / "docs" / "micropython.md"
+PAGE = HERE.parent.parent / "docs" / "coming_from" / "micropython.md"
 
 
 @pytest.fixture
@@ -278,20 +278,33 @@ def test_the_modules_have_their_own_names(installed):
     assert abs(utime.ticks_diff(utime.ticks_ms(), utime.ticks_us() // 1000)) < 1 << 30
 
 
-def test_the_blocks_of_the_page_run(installed, monkeypatch):
-    blocks = re.findall(r"^```python\n(.*?)^```$", PAGE.read_text(encoding="utf-8"), re.M | re.S)
-    chip = simulator.SSD1306(128, 64)
-    bus = simulator.I2CBus({0x3C: chip})
-    monkeypatch.setattr("smbus2.SMBus", lambda *path: bus)
-    monkeypatch.delenv("PANELDRAW_PANEL", raising=False)
+@pytest.fixture
+def page_runs(installed, monkeypatch):
+    """Runs a block of the page; returns the chip that it shows on."""
     own = loaded(HERE / "microcontroller_driver.py")
     own.SSD1306_I2C = own.PanelI2C
     monkeypatch.setitem(sys.modules, "ssd1306", own)
-    names = {}
-    for block in blocks:
+    monkeypatch.delenv("PANELDRAW_PANEL", raising=False)
+
+    def run(block, names):
+        chip = simulator.SSD1306(128, 64)
+        bus = simulator.I2CBus({0x3C: chip})
+        monkeypatch.setattr("smbus2.SMBus", lambda *path: bus)
         exec(block, names)
-    assert len(blocks) == 3
+        return chip
+
+    return run
+
+
+def test_the_blocks_of_the_page_run(page_runs):
+    first, before, after, *more = re.findall(r"^```python\n(.*?)^```$", PAGE.read_text("utf-8"), re.M | re.S)
+    assert np.array_equal(page_runs(before, {}).pixels, page_runs(after, {}).pixels)
+    names = {}
+    chip = page_runs(first, names)
     assert np.array_equal(chip.pixels, pixels_of(names["oled"]))
     assert chip.pixels.any()
+    for block in more:
+        page_runs(block, names)
+    assert len(more) == 2
     assert np.array_equal(names["panel"].simulated.pixels, pixels_of(names["fb"]))
     assert names["cost"] <= 8
