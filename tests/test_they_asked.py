@@ -1,4 +1,4 @@
-"""The page of wishes: each is answered by a short script that runs as printed, and prints and shows what the page says."""
+"""The page of wishes: each is answered by a short script that runs as printed, and shows what the page says."""
 
 from __future__ import annotations
 
