@@ -68,6 +68,8 @@ def finish() -> None:
         with contextlib.suppress(Exception):
             panel._end() if panel._inside() else panel.close()
     os.kill(os.getpid(), ending)
+    if os.getpid() == 1:  # the first process of a container: no signal ends it by default
+        os._exit(128 + ending)
 
 
 def _in_child() -> None:

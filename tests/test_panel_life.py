@@ -7,6 +7,7 @@ import copy
 import errno
 import gc
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -650,6 +651,16 @@ def test_what_the_end_of_a_script_leaves(on_close, left, end):
     done = run(LEFT.format(on_close=on_close) + "    " + script, check=False)
     assert done.returncode == code, done.stderr
     assert done.stdout.splitlines()[-1] == left
+
+
+def test_the_first_process_of_a_container_ends_at_sigterm_too():
+    namespace = ["unshare", "--map-root-user", "--pid", "--fork", "--kill-child"]
+    if shutil.which("unshare") is None or subprocess.run([*namespace, "true"], capture_output=True).returncode:
+        pytest.skip("this machine makes no namespaces")
+    script = textwrap.dedent(LEFT.format(on_close="off")) + "os.kill(os.getpid(), signal.SIGTERM)\nprint('still here')"
+    done = subprocess.run([*namespace, sys.executable, "-c", script], capture_output=True, text=True)
+    assert done.returncode == 128 + 15, done.stderr
+    assert done.stdout.splitlines()[-1] == "0 0"
 
 
 @posix
