@@ -26,7 +26,7 @@ def write_text(coverage, s, x, y, font, anchor):
         import paneldraw.text as _layout
     left: cython.longlong = top_left("x", x)
     top: cython.longlong = top_left("y", y)
-    font = _layout.font_of(font)
+    font = _layout.font_on(font, coverage.surface.max_level)
     glyphs: Glyphs = font._glyphs
     simple: cython.bint = glyphs is not None and type(s) is str and one_line(s)
     if simple:
@@ -57,6 +57,7 @@ def set_text(coverage, s, x, y, font, anchor, line_spacing, direction, inverse):
 
     left: cython.longlong = top_left("x", x)
     top: cython.longlong = top_left("y", y)
+    font = paneldraw.text.font_on(font, coverage.surface.max_level)
     shares, dx, dy = paneldraw.text.render(
         s, font, anchor, line_spacing=line_spacing, direction=direction, inverse=inverse
     )
@@ -72,6 +73,7 @@ def write_box(coverage, s, x, y, w, h, font, style, inverse):
     top: cython.longlong = near_pixel("y", y)
     width: cython.longlong = min(extent("w", w, 1), 1 << 30)
     height: cython.longlong = min(extent("h", h, 1), 1 << 30)
+    font = paneldraw.text.font_on(font, surface.max_level)
     picture, rest = paneldraw.text.boxed(s, width, height, font, paneldraw.text.BoxStyle(*style))
     if not inverse:
         _stamp(coverage, picture.ink, left + picture.left, top + picture.top, False)

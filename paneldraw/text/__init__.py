@@ -11,6 +11,7 @@ from paneldraw.text.console import Console
 from paneldraw.text.font import TAB as TAB
 from paneldraw.text.font import Font
 from paneldraw.text.font import font_of as font_of
+from paneldraw.text.font import font_on as font_on
 from paneldraw.text.font import split_lines as split_lines
 from paneldraw.text.layout import offset as offset
 from paneldraw.text.layout import render

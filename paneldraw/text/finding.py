@@ -50,7 +50,7 @@ class Installed:
         return not any(word in self.style for word in ("light", "thin", "black", "heavy", "semi", "demi", "extra"))
 
 
-def find(name: str, size: float | None, bold: bool, italic: bool, antialias: bool) -> Font:
+def find(name: str, size: float | None, bold: bool, italic: bool, antialias: bool | None) -> Font:
     """Find and read an installed font; see `Font.find`."""
     if not isinstance(name, str):
         raise TypeError(f"name must be a string, not {type(name).__name__}")

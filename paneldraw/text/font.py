@@ -75,6 +75,8 @@ class Font:
     _factor: int = field(default=1, repr=False)
     # Whether the characters fill a cell each, so that the box of a text is its cells and not its ink.
     _cells: bool = field(default=False, repr=False)
+    # The same font with gray edges, which stands for it on framebuffers that have grays.
+    _gray: Font | None = field(default=None, repr=False)
 
     @staticmethod
     def builtin(name: str = "6x8") -> Font:
@@ -102,7 +104,7 @@ class Font:
         return _builtin(name)
 
     @staticmethod
-    def truetype(path: str | os.PathLike[str], size: float, *, antialias: bool = False) -> Font:
+    def truetype(path: str | os.PathLike[str], size: float, *, antialias: bool | None = None) -> Font:
         """Return a TrueType or OpenType font.
 
         Parameters
@@ -111,8 +113,8 @@ class Font:
             The font file, or the file name of an installed font such as ``"DejaVuSans.ttf"``.
         size : float
             Pixels to the em, positive.
-        antialias : bool, default False
-            Whether edges are grey. The crisp default suits panels of one bit a pixel.
+        antialias : bool, optional
+            Whether edges are gray; see :meth:`load`.
 
         Raises
         ------
@@ -126,8 +128,10 @@ class Font:
         from paneldraw.text.loading import check_size
 
         check_size(size)
+        # Of a file that it cannot read, truetype() looks for an installed one of the same name.
+        read = ImageFont.FreeTypeFont if os.path.exists(path) else ImageFont.truetype
         try:
-            loaded = ImageFont.truetype(os.fspath(path), size)
+            loaded = read(os.fspath(path), size)
         except OSError as error:
             raise OSError(
                 f"cannot read font {os.fspath(path)!r} ({error}); give the path of a .ttf or .otf file, or Font.load "
@@ -140,7 +144,7 @@ class Font:
         path: str | os.PathLike[str],
         size: float | None = None,
         *,
-        antialias: bool = False,
+        antialias: bool | None = None,
         encoding: str | None = None,
     ) -> Font:
         """Return the font of a file.
@@ -155,8 +159,9 @@ class Font:
             The file.
         size : float, optional
             Pixels to the em. A bitmap font has sizes of its own; where it has one, that is the default.
-        antialias : bool, default False
-            Whether edges of outlines are gray. The crisp default suits panels of one bit a pixel.
+        antialias : bool, optional
+            Whether edges of outlines are gray. Default: where the framebuffer that is drawn on has grays; on one bit
+            a pixel, and in :meth:`glyph` and `render`, which draw on none, they are crisp and hinted for it.
         encoding : str, optional
             The character set of a bitmap font's codes, such as ``"koi8-r"``, instead of the one that the file names;
             ``"raw"`` for the codes as they are. Codes of a set that Python has no codec for are so anyway: ``chr(65)``
@@ -175,7 +180,7 @@ class Font:
 
     @staticmethod
     def find(
-        name: str, size: float | None = None, *, bold: bool = False, italic: bool = False, antialias: bool = False
+        name: str, size: float | None = None, *, bold: bool = False, italic: bool = False, antialias: bool | None = None
     ) -> Font:
         """Return a font that is installed on this system, by the name of its family or file.
 
@@ -187,8 +192,8 @@ class Font:
             Pixels to the em, as for :meth:`load`.
         bold, italic : bool, default False
             The style, where there are several.
-        antialias : bool, default False
-            Whether edges of outlines are gray.
+        antialias : bool, optional
+            Whether edges of outlines are gray; see :meth:`load`.
 
         Raises
         ------
@@ -203,7 +208,7 @@ class Font:
 
     @staticmethod
     def from_pillow(
-        font: ImageFont.FreeTypeFont | ImageFont.ImageFont, *, name: str | None = None, antialias: bool = False
+        font: ImageFont.FreeTypeFont | ImageFont.ImageFont, *, name: str | None = None, antialias: bool | None = None
     ) -> Font:
         """Return a font that Pillow draws: ``ImageFont.truetype(...)``, ``ImageFont.load(...)``.
 
@@ -213,8 +218,8 @@ class Font:
             The font as Pillow loaded it.
         name : str, optional
             What people call it. Default: the name in the font file.
-        antialias : bool, default False
-            Whether edges are grey; a bitmap font has none.
+        antialias : bool, optional
+            Whether edges are gray, see :meth:`load`; those of a bitmap font never are.
 
         Raises
         ------
@@ -247,7 +252,8 @@ class Font:
         >>> small.height
         8
         """
-        others = [(other._face, other.baseline + 1) for other in map(font_of, fonts)]
+        fonts = tuple(map(font_of, fonts))
+        others = [(other._face, other.baseline + 1) for other in fonts]
         if isinstance(self._face, StrikeFace) and self._factor == 1:
             face = StrikeFace(self._face.strike, (*self._face.fallbacks, *others))
             return replace(self, _face=face, _glyphs=face.glyphs)
@@ -255,7 +261,10 @@ class Font:
             chain = ChainFace((*self._face.faces, *others), self._face.missing)
         else:
             chain = ChainFace(((self._face, self.baseline + 1), *others), self._face.line(chr(NO_CHARACTER)))
-        return replace(self, _face=chain, _glyphs=None)
+        gray = None
+        if any(font._gray is not None for font in (self, *fonts)):
+            gray = (self._gray or self).with_fallback(*(font._gray or font for font in fonts))
+        return replace(self, _face=chain, _glyphs=None, _gray=gray)
 
     def shaped(
         self,
@@ -297,7 +306,8 @@ class Font:
         if not (isinstance(chain, ChainFace) and isinstance(chain.faces[0][0], FreeTypeFace)):
             raise ValueError(f"only fonts with outlines are shaped, before they are scaled, and {self.name} is none")
         faces = [(face.shaped(shaping) if isinstance(face, FreeTypeFace) else face, top) for face, top in chain.faces]
-        return replace(self, _face=ChainFace(faces, chain.missing))
+        gray = self._gray and self._gray.shaped(direction=direction, features=features, language=language)
+        return replace(self, _face=ChainFace(faces, chain.missing), _gray=gray)
 
     def scaled(self, factor: int) -> Font:
         """Return the font with each pixel a square of `factor` x `factor` pixels.
@@ -323,6 +333,7 @@ class Font:
             baseline=(self.baseline + 1) * factor - 1,
             _face=ScaledFace(self._face, factor),
             _factor=self._factor * factor,
+            _gray=self._gray and self._gray.scaled(factor),
         )
 
     def glyph(self, char: str) -> NDArray[np.uint8]:
@@ -372,6 +383,12 @@ def font_of(font: Any) -> Font:
     return font
 
 
+def font_on(font: Any, max_level: int) -> Font:
+    """The font that an argument means where there are so many levels."""
+    found = font_of(font)
+    return found._gray if max_level > 1 and found._gray is not None else found
+
+
 def split_lines(text: str) -> list[str]:
     """The lines of a text, tabs as spaces, letters and their marks composed."""
     if not isinstance(text, str):
@@ -412,19 +429,24 @@ def of_strike(strike: Strike) -> Font:
     )
 
 
-def outline(font: ImageFont.FreeTypeFont, name: str | None, antialias: bool) -> Font:
+def outline(font: ImageFont.FreeTypeFont, name: str | None, antialias: bool | None) -> Font:
     """Return the font that Pillow's FreeType draws."""
     from paneldraw.text.outline import characters_of
 
     ascent, descent = font.getmetrics()
     if not 0 < ascent + descent <= _MOST_EMS * font.size:
         raise OSError(f"its lines would be {ascent + descent} rows high")
-    face = FreeTypeFace(font, characters_of(font), antialias)
+    has = characters_of(font)
     like = font.getbbox("H", "1", anchor="ls")
     frame = box(int(like[2]) - 1, -int(like[1]), ascent)
     widest = max(math.ceil(font.getlength(chr(code), "1")) for code in range(0x20, 0x7F))
     known = " ".join(part for part in font.getname() if part)
-    return Font(name or known, widest, ascent + descent, 0, ascent - 1, ChainFace([(face, ascent)], frame))
+
+    def drawn(antialias: bool, gray: Font | None = None) -> Font:
+        face = ChainFace([(FreeTypeFace(font, has, antialias), ascent)], frame)
+        return Font(name or known, widest, ascent + descent, 0, ascent - 1, face, _gray=gray)
+
+    return drawn(False, drawn(True)) if antialias is None else drawn(antialias)
 
 
 @functools.cache

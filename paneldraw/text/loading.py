@@ -5,14 +5,14 @@ from __future__ import annotations
 import os
 import re
 import zlib
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from paneldraw.text.font import Font, of_strike, outline
-from paneldraw.text.formats import DamagedFontError, Pictures, bdf, charsets, pcf, psf, u8g2, unifont
+from paneldraw.text.formats import DamagedFontError, bdf, charsets, pcf, psf, u8g2, unifont
 from paneldraw.text.outline import characters_of, is_scalable, is_symbolic
 from paneldraw.text.strike import Picture, Strike
 
@@ -24,12 +24,15 @@ LARGEST = 1 << 26
 
 _PROBED = range(1, 129)
 
+_LOOKED_THROUGH = (*range(0x3000), *range(0xF000, 0xF100))
+"""Where characters of a font of bitmaps are looked for to know how wide they are: alphabets, signs and symbols."""
+
 _KINDS = "TrueType, OpenType, BDF, PCF, OTB, PSF, .hex, .pil and C sources of U8g2's are read"
 
 Reader = Callable[[bytes, str, "str | None"], Strike]
 
 
-def load(path: str | os.PathLike[str], size: float | None, antialias: bool, encoding: str | None) -> Font:
+def load(path: str | os.PathLike[str], size: float | None, antialias: bool | None, encoding: str | None) -> Font:
     """Read a font file; see `Font.load`."""
     place, wanted = _named(os.fspath(path))
     check_size(size)
@@ -88,6 +91,8 @@ def _unzipped(data: bytes, limit: int) -> bytes:
             found = zlib.decompressobj(31).decompress(data, limit)
         except zlib.error as error:
             raise DamagedFontError(f"damaged gzip data ({error})") from error
+        if len(found) < 4:
+            raise DamagedFontError("damaged gzip data (cut short)")
     if len(found) > LARGEST:
         raise DamagedFontError(f"more than {LARGEST >> 20} MB, which is no bitmap font")
     return found
@@ -124,26 +129,27 @@ def wrong_size(place: Path, size: float | None, sizes: list[int]) -> ValueError:
     return ValueError(f"{place.name} has {only} {known}, not {size}; font.scaled(2) doubles one")
 
 
-def _through_pillow(place: Path, size: float | None, antialias: bool) -> Font:
+def _through_pillow(place: Path, size: float | None, antialias: bool | None) -> Font:
     """An outline font, a font of Pillow's own, or bitmaps in the form of OpenType."""
     from PIL import ImageFont
 
     if place.suffix == ".pil":
         return _pillows_own(place, size)
+    # Not truetype(): of a file that it cannot read, it looks for an installed one of the same name.
     try:
-        probe = ImageFont.truetype(str(place), 16)
+        probe = ImageFont.FreeTypeFont(str(place), 16)
         if is_scalable(probe):
             if size is None:
                 raise ValueError(f"size must be given: {place.name} is drawn at any, in pixels to the em")
             charmap = "symb" if is_symbolic(probe) else ""
-            return outline(ImageFont.truetype(str(place), size, encoding=charmap), None, antialias)
+            return outline(ImageFont.FreeTypeFont(str(place), size, encoding=charmap), None, antialias)
     except OSError as error:
         if "pixel size" not in str(error):
             raise DamagedFontError(f"{error}; {_KINDS}") from error
     sizes = {}
     for known in _PROBED:
         try:
-            sizes[known] = ImageFont.truetype(str(place), known, layout_engine=ImageFont.Layout.BASIC)
+            sizes[known] = ImageFont.FreeTypeFont(str(place), known, layout_engine=ImageFont.Layout.BASIC)
         except (OSError, ValueError):
             continue
     if not sizes:
@@ -171,16 +177,31 @@ def _pillows_own(place: Path, size: float | None) -> Font:
 def _bitmaps(font: ImageFont.FreeTypeFont, size: int) -> Strike:
     """The characters of a font of bitmaps that FreeType reads."""
     ascent, descent = font.getmetrics()
-    has = characters_of(font)
+    name = " ".join(part for part in font.getname() if part)
+    return Strike(name, ascent, descent, _FreeTypePictures(font, ascent), size=size)
 
-    def picture(code: int) -> Picture:
-        char = chr(code)
+
+class _FreeTypePictures(Mapping[int, Picture]):
+    """Characters of a font of bitmaps. Without its table of them, only drawing tells which there are: one at a time."""
+
+    def __init__(self, font: ImageFont.FreeTypeFont, ascent: int) -> None:
+        self._font, self._ascent, self._has = font, ascent, characters_of(font)
+
+    def __contains__(self, code: object) -> bool:
+        return isinstance(code, int) and self._has(code)
+
+    def __getitem__(self, code: int) -> Picture:
+        if code not in self:
+            raise KeyError(code)
+        font, char = self._font, chr(code)
         left, top, right, bottom = (int(edge) for edge in font.getbbox(char, "1", anchor="ls"))
         if right <= left or bottom <= top:
             return Picture(np.zeros((0, 0), np.uint8), 0, 0, round(font.getlength(char, "1")))
         ink = np.frombuffer(bytes(font.getmask(char, "1")), np.uint8).reshape(bottom - top, right - left)
-        return Picture(ink, left, ascent + top, round(font.getlength(char, "1")))
+        return Picture(ink, left, self._ascent + top, round(font.getlength(char, "1")))
 
-    codes = {code: code for code in range(0x110000) if has(code)}
-    name = " ".join(part for part in font.getname() if part)
-    return Strike(name, ascent, descent, Pictures(codes, picture), size=size)
+    def __iter__(self) -> Iterator[int]:
+        return (code for code in _LOOKED_THROUGH if code in self)
+
+    def __len__(self) -> int:
+        return sum(1 for _ in self)

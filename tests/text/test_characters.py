@@ -144,6 +144,67 @@ def test_crisp_or_smooth_text_stands_at_the_same_place(text):
         assert crisp[2] - smooth[2] in (-1, 0, 1)
 
 
+WAYS_TO_WRITE = {
+    "line": lambda fb, font: fb.text("jÄg 21.5", 9, 3, 1, font=font),
+    "anchor": lambda fb, font: fb.text("jÄg 21.5", 60, 20, 1, font=font, anchor="rs"),
+    "lines": lambda fb, font: fb.text("jÄg\n21.5", 9, 3, 1, font=font, direction="down"),
+    "box": lambda fb, font: fb.text_box("jÄg 21.5", 9, 3, 40, 60, 1, font=font),
+    "inverse box": lambda fb, font: fb.text_box("jÄg 21.5", 9, 3, 40, 60, 1, font=font, inverse=True),
+}
+FROM_OUTLINES = {
+    "load": lambda **how: Font.load(sample.installed(DEJAVU), 13, **how),
+    "find": lambda **how: (sample.installed(DEJAVU), Font.find("DejaVu Sans", 13, **how))[1],
+    "from_pillow": lambda **how: Font.from_pillow(ImageFont.load_default(13), **how),
+    "scaled": lambda **how: Font.from_pillow(ImageFont.load_default(7), **how).scaled(2),
+    "with_fallback": lambda **how: (
+        Font.builtin().scaled(2).with_fallback(Font.from_pillow(ImageFont.load_default(13), **how))
+    ),
+}
+
+
+@pytest.mark.parametrize("write", WAYS_TO_WRITE.values(), ids=WAYS_TO_WRITE)
+@pytest.mark.parametrize("source", FROM_OUTLINES.values(), ids=FROM_OUTLINES)
+def test_outlines_are_crisp_on_one_bit_and_smooth_on_grays(source, write):
+    for depth in (1, 2, 4, 8):
+        default, chosen = Framebuffer(80, 80, depth), Framebuffer(80, 80, depth)
+        write(default, source())
+        write(chosen, source(antialias=depth > 1))
+        assert default == chosen
+        assert default.pixels.any()
+
+
+def test_edges_are_gray_where_there_are_grays_unless_told_otherwise():
+    levels = []
+    for antialias in (None, False, True):
+        fb = Framebuffer(80, 20, 4)
+        fb.text("Sag 8", 2, 2, font=Font.from_pillow(ImageFont.load_default(13), antialias=antialias))
+        levels.append(set(np.unique(fb.pixels).tolist()))
+    assert levels[1] == {0, 15}
+    assert levels[0] == levels[2] > levels[1]
+
+
+def test_kinds_of_pictures_are_kept_apart():
+    font = Font.load(sample.installed(DEJAVU), 13)
+    for depth in (4, 1, 4, 1):
+        fb = Framebuffer(40, 20, depth)
+        fb.text("Sag", 2, 2, font=font)
+        assert bool(set(np.unique(fb.pixels).tolist()) - {0, fb.max_level}) == (depth > 1)
+
+
+@pytest.mark.parametrize("anchor", ["la", "ls", "ra", "md"])
+@pytest.mark.parametrize("text", ["jH", "Ho"])
+def test_the_weight_of_a_text_lies_at_the_same_pixel_on_any_depth(text, anchor):
+    for size in (12, 13, 16, 24):
+        font = Font.load(sample.installed(DEJAVU), size)
+        centers = []
+        for depth in (1, 4):
+            fb = Framebuffer(200, 60, depth)
+            fb.text(text, 100, 30, font=font, anchor=anchor)
+            weights = fb.pixels.astype(float)
+            centers.append([(place * weights).sum() / weights.sum() for place in np.indices(weights.shape)])
+        assert np.abs(np.subtract(*centers)).max() <= 0.75
+
+
 def test_a_first_letter_that_overhangs_moves_nothing():
     font = Font.load(sample.installed(DEJAVU), 40)
     for text in ("jX", "/X"):

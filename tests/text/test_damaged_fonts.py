@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import gzip
 import re
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -13,7 +14,7 @@ from hypothesis import strategies as st
 from PIL import ImageFont
 
 from paneldraw import Font, Framebuffer
-from paneldraw.text import render
+from paneldraw.text import outline, render
 from paneldraw.text.outline import characters_of
 
 WHOLE = {
@@ -157,3 +158,34 @@ def test_lines_that_cannot_be_that_high(tmp_path, ascent):
     path.write_bytes(bytes(data))
     with pytest.raises(OSError, match=r"its lines would be -?\d+ rows high"):
         Font.load(path, 10)
+
+
+def test_a_packed_font_that_is_cut_short_at_once(tmp_path):
+    path = tmp_path / "short.pcf.gz"
+    path.write_bytes(gzip.compress(sample.pcf())[:12])
+    with pytest.raises(OSError, match=r"damaged gzip data \(cut short\)"):
+        Font.load(path)
+
+
+def test_of_bitmaps_without_a_table_of_characters_few_are_drawn_to_find_out(monkeypatch):
+    """To try all of Unicode took minutes."""
+    path = sample.installed(Path("/usr/share/fonts/opentype/terminus/terminus-normal.otb"))
+    known = render("21.5 °Cж", Font.load(path, 16))
+    asked, look = [], outline._drawn
+
+    def counting(font):
+        drawn = look(font)
+        return lambda code: asked.append(code) or drawn(code)
+
+    monkeypatch.setattr(outline, "_table_of", lambda _: outline._NONE)
+    monkeypatch.setattr(outline, "_drawn", counting)
+    assert np.array_equal(render("21.5 °Cж", Font.load(path, 16))[0], known[0])
+    assert 95 <= len(asked) < 400
+
+
+@pytest.mark.parametrize("load", [Font.load, Font.truetype])
+def test_no_installed_font_of_the_same_name_stands_in_for_a_damaged_one(tmp_path, load):
+    path = tmp_path / "DejaVuSans.ttf"
+    path.write_bytes(sample.installed(Path("/usr/share/fonts/truetype/dejavu") / path.name).read_bytes()[:500])
+    with pytest.raises(OSError, match="cannot read font"):
+        load(path, 12)

@@ -1,7 +1,8 @@
 """BDF, Adobe's Glyph Bitmap Distribution Format 2.1 (Adobe technical note 5005), as real files have it.
 
 Of 390 that are around, a third break the letter of it: no CHARS or ENDFONT, no properties, rows unlike their BBX,
-numbers in quotes, DWIDTH 0, ends of lines of other systems, comments in 8 bits. None of that keeps one from being read.
+numbers in quotes, DWIDTH 0, ends of lines of other systems, comments in 8 bits. None of that keeps one from being read;
+FreeType opens 201 of 344, and Pillow's reader 336, of which it keeps 256 characters.
 """
 
 from __future__ import annotations
