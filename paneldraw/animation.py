@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import bisect
-import contextlib
 import itertools
 import os
-import struct
 import time
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Any
+
+from paneldraw.framebuffer.pictures import readable
 
 if TYPE_CHECKING:
     from PIL import Image
@@ -83,7 +83,7 @@ class Animation:
         self._ends: list[float] = []
 
     def __len__(self) -> int:
-        with _readable("the number of frames"):
+        with readable("the number of frames of the picture"):
             return int(getattr(self._file, "n_frames", 1))
 
     def frame(self, number: int) -> tuple[Image.Image, float]:
@@ -96,7 +96,7 @@ class Animation:
         """
         if not 0 <= number < len(self):
             raise IndexError(f"the picture has no frame {number}")
-        with _readable(f"frame {number}"):
+        with readable(f"frame {number} of the picture"):
             if len(self) > 1:
                 self._file.seek(number)
             self._file.load()
@@ -132,15 +132,6 @@ class Animation:
 def _milliseconds(seconds: float) -> float:
     """What files count in, without the errors of adding up tenths."""
     return round(1000 * seconds, 6)
-
-
-@contextlib.contextmanager
-def _readable(what: str) -> Iterator[None]:
-    """Say in one way what is wrong with a file: Pillow raises what its readers stumble over."""
-    try:
-        yield
-    except (SyntaxError, ValueError, LookupError, EOFError, TypeError, struct.error) as error:
-        raise OSError(f"{what} of the picture cannot be read: {error}") from error
 
 
 def play(

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import contextlib
 import functools
 import io
 import operator
 import os
+import struct
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any, Literal, get_args
 
 import numpy as np
@@ -41,12 +44,21 @@ def to_image(levels: Levels, max_level: int, scale: int = 1) -> Image.Image:
     return image.convert("1", dither=Image.Dither.NONE) if max_level == 1 else image
 
 
+@contextlib.contextmanager
+def readable(what: str) -> Iterator[None]:
+    """Say in one way what is wrong with a file: Pillow raises what its readers stumble over."""
+    try:
+        yield
+    except (SyntaxError, ValueError, LookupError, EOFError, TypeError, struct.error) as error:
+        raise OSError(f"{what} cannot be read: {error}") from error
+
+
 def opened(path: str | os.PathLike[str]) -> Image.Image:
     """Read a picture's file, upright. An X bitmap may be one that only C compilers read."""
     from PIL import Image, UnidentifiedImageError
 
     try:
-        with Image.open(path) as file:
+        with readable(f"picture {os.fspath(path)!r}"), Image.open(path) as file:
             file.load()
             return upright(file)
     except UnidentifiedImageError:
