@@ -359,12 +359,14 @@ class Panel:
         self.flush()
         return self._show(pixels, max_level, force)
 
-    async def ashow(self, source: Any = None, *, force: bool = False) -> Report:
+    async def ashow(
+        self, source: Any = None, *, force: bool = False, dither: Dither | None = None, gamma: float = 1.0
+    ) -> Report:
         """Show a picture without holding up the event loop, as `show` does; `source` is copied at once."""
         import asyncio
 
         self._listen()
-        pixels, max_level = self._levels(source)
+        pixels, max_level = self._levels(source, dither, gamma)
         if self._cycling is not None:
             return self._hand_over(pixels.copy(), max_level)
         return await asyncio.to_thread(self._show, pixels.copy(), max_level, force)

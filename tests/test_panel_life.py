@@ -20,7 +20,7 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 import pytest
 
-from paneldraw import Panel, open_panel, simulator
+from paneldraw import Framebuffer, Panel, open_panel, simulator
 from paneldraw.controllers import SH1106, SSD1306, SSD1309, SSD1327
 from paneldraw.errors import PanelDisconnectedError, PanelError, PanelTimeoutError
 from paneldraw.pacing import Frames
@@ -485,6 +485,17 @@ def test_ashow():
 
     assert asyncio.run(script()).changed_bytes == 1024
     np.testing.assert_array_equal(chip.pixels, noise(1))
+
+
+@pytest.mark.parametrize("dither", ["bayer", "floyd-steinberg", "blue-noise", "stable"])
+def test_ashow_dithers_as_show_does(dither):
+    picture = Framebuffer(128, 64, 8)
+    picture.pixels[:] = np.add.outer(np.arange(64), np.arange(128))
+    (panel, chip), (other, same) = simulated(), simulated()
+    asyncio.run(panel.ashow(picture, dither=dither, gamma=2.2))
+    other.show(picture, dither=dither, gamma=2.2)
+    np.testing.assert_array_equal(chip.pixels, same.pixels)
+    assert 500 < chip.pixels.sum() < 4000
 
 
 def test_frames_keep_their_beat():
