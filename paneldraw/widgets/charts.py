@@ -131,11 +131,17 @@ def _area(
     if not there.any():
         return
     end = fb.height - 1 if bottom is None else bottom
-    x, y = np.meshgrid(np.arange(left, int(xs[there].max()) + 1), np.arange(int(ys[there].min()), end + 1))
-    below = y > np.interp(x[0], xs[there], ys[there])
+    top, level = int(ys[there].min()), dim(fb, c)
+    line = np.interp(np.arange(left, int(xs[there].max()) + 1), xs[there], ys[there])
+    shaded = np.arange(top, end + 1)[:, None] > line
     if fb.max_level == 1:
-        below &= ((x + y) % 4 == 0) & (y % 2 == 0)
-    fb.points(np.column_stack((x[below], y[below])), dim(fb, c))
+        whole, shaded = shaded, np.zeros_like(shaded)
+        for row in (0, 2):
+            fourths = np.s_[(row - top) % 4 :: 4, (row - left) % 4 :: 4]
+            shaded[fourths] = whole[fourths]
+    # Of two levels that differ in their last bit, the one that is not painted is the key.
+    key = level ^ 1
+    fb.blit(shaded.view(np.uint8) ^ np.uint8(key), left, top, key)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

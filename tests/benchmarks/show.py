@@ -68,10 +68,13 @@ ROWS = [
     gray_row("one pixel changed, 16 grays", "gray_noise", "gray_noise_and_a_pixel"),
     # luma's is drawn with Pillow, and has no axes.
     Row(
-        "a chart of 128 points, drawn and shown", 2, "chart(one); chart(other)",
+        "a chart of 128 points, drawn and shown",
+        2,
+        "chart(one); chart(other)",
         (Against(LUMA, "chart(one); chart(other)"),),
     ),
     Row("a chart of 128 points, drawn and shown, 16 grays", 2, "gray_chart(one); gray_chart(other)"),
+    Row("the same with grid and area, 16 grays", 2, "gray_area(one); gray_area(other)"),
 ]
 
 #: Two readings of a quantity, 128 points each, the second a step later.
@@ -140,20 +143,25 @@ def names() -> Names:
     bus = Forgetful()
     show_spi = Panel(SSD1306(WIDTH, HEIGHT), SPITransport(spi=bus, pins=bus)).show
     show, show_gray = (Panel(chip, I2CTransport(bus)).show for chip in (SSD1306(WIDTH, HEIGHT), SSD1327()))
-    charts = {"chart": charting(SSD1306(WIDTH, HEIGHT)), "gray_chart": charting(SSD1325(WIDTH, HEIGHT))}
+    gray = SSD1325(WIDTH, HEIGHT)
+    charts = {
+        "chart": charting(SSD1306(WIDTH, HEIGHT)),
+        "gray_chart": charting(gray),
+        "gray_area": charting(gray, grid=True, fill=True),
+    }
     readings = {"one": np.array(READINGS[0]), "other": np.array(READINGS[1])}
     shows = {"show": show, "show_spi": show_spi, "show_gray": show_gray}
     return {**pictures(), **gray_pictures(), **shows, **charts, **readings}
 
 
-def charting(chip: Controller) -> Callable[[Any], None]:
+def charting(chip: Controller, **options: bool) -> Callable[[Any], None]:
     """What draws a chart with its axes on a panel, and shows it."""
     panel = Panel(chip, I2CTransport(Forgetful()))
     fb = panel.framebuffer()
 
     def chart(values: Any) -> None:
         fb.clear()
-        Chart(values).draw(fb)
+        Chart(values, **options).draw(fb)
         panel.show(fb)
 
     return chart
