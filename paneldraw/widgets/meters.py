@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar, NamedTuple
 
+from paneldraw.text import Font
 from paneldraw.widgets.axis import ticks
 from paneldraw.widgets.widget import Widget, dim, fitted, largest, share_of, width_of
 
@@ -214,6 +215,11 @@ class Number(Widget):
     unit, label : str
     form : str
         How the number is written, as for `format`.
+    segments : bool
+        Whether its digits are those of a seven-segment display, where they have room.
+
+    Without a `font`, it is written in the built-in ``"numbers"`` or ``"segments"``, or in the default one where those
+    have no room.
 
     Examples
     --------
@@ -227,6 +233,7 @@ class Number(Widget):
     unit: str = ""
     label: str = ""
     form: str = ".1f"
+    segments: bool = False
 
     @property
     def size(self) -> tuple[int, int]:
@@ -245,7 +252,7 @@ class Number(Widget):
         beside = width_of(self.unit, small) + 2 if self.unit else 0
         if beside and width_of(self._text, small) + beside > fb.width:
             beside = 0
-        font = largest(self._text, fb.width - beside, fb.height - top, small)
+        font = self._large(fb.width - beside, fb.height - top)
         text = fitted(self._text, fb.width, font)
         across = width_of(text, font)
         left = max((fb.width - across - beside) // 2, 0)
@@ -257,6 +264,13 @@ class Number(Widget):
             # Beside a large number the unit hangs from its top, as on an instrument.
             above = base - font.baseline + small.baseline
             fb.text(self.unit, left + across + 2, above, c, font=small, anchor="ls")
+
+    def _large(self, width: int, height: int) -> Font:
+        """The font that the number is written in, as large as fits."""
+        digits = Font.builtin("segments" if self.segments else "numbers")
+        if self.font is None and width_of(self._text, digits) <= width and digits.height <= height + 1:
+            return largest(self._text, width, height, digits)
+        return largest(self._text, width, height, self._font)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

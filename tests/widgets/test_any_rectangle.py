@@ -40,7 +40,7 @@ LIMITS = st.none() | NUMBERS
 WIDGETS = {
     "progress": st.builds(ProgressBar, NUMBERS, st.sampled_from(["", "{:.0%}", "busy"])),
     "gauge": st.builds(Gauge, NUMBERS, NUMBERS, NUMBERS, unit=TEXTS, needle=st.booleans()),
-    "number": st.builds(Number, NUMBERS | TEXTS, TEXTS, TEXTS),
+    "number": st.builds(Number, NUMBERS | TEXTS, TEXTS, TEXTS, segments=st.booleans()),
     "battery": st.builds(Battery, NUMBERS, st.booleans()),
     "signal": st.builds(Signal, NUMBERS, st.integers(-1, 50)),
     "menu": st.builds(

@@ -119,8 +119,24 @@ def test_a_number_is_as_large_as_fits_and_its_unit_and_label_are_there():
     words.text("load", 19, 0, anchor="mt")
     assert np.array_equal(fb.pixels[:8], words.pixels[:8])
     assert drawn(Number("--"), 128, 64).pixels.any()
-    sizes = [lit(drawn(Number(7, form=".0f"), side, side)) for side in (8, 16, 24, 32)]
-    assert [size / sizes[0] for size in sizes] == [1, 4, 9, 16]
+    given = [lit(drawn(Number(7, form=".0f", font=Font.builtin()), side, side)) for side in (8, 16, 24, 32)]
+    assert [size / given[0] for size in given] == [1, 4, 9, 16]
+    sizes = [lit(drawn(Number(7, form=".0f"), side, side)) for side in (8, 16, 32, 48)]
+    assert sizes[0] == given[0]
+    assert [size / sizes[1] for size in sizes[1:]] == [1, 4, 9]
+
+
+@pytest.mark.parametrize(("segments", "name"), [(False, "numbers"), (True, "segments")])
+def test_a_number_with_room_is_written_in_the_digits_made_for_it(segments, name):
+    number = Number(21.5, segments=segments)
+    for factor in (1, 2):
+        fb, words = Framebuffer(80, 16 * factor), Framebuffer(80, 16 * factor)
+        number.draw(fb)
+        font = Font.builtin(name).scaled(factor)
+        words.text("21.5", (80 - font.measure("21.5")[0]) // 2, 0, font=font)
+        assert np.array_equal(fb.pixels.any(axis=0), words.pixels.any(axis=0))
+        assert lit(fb) == lit(words)
+    assert drawn(number, 31, 16) == drawn(Number(21.5, font=Font.builtin()), 31, 16)
 
 
 def test_a_battery_charges():
