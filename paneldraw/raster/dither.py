@@ -50,6 +50,7 @@ def ordered(
     y: cython.Py_ssize_t
     i: cython.Py_ssize_t
     j: cython.Py_ssize_t
+    k: cython.Py_ssize_t
     exact: cython.int
     found: cython.int
     reach: cython.int
@@ -59,11 +60,13 @@ def ordered(
         j = (top + y) % side
         i = left % side
         if hold == 0:
-            for x in range(width):
-                target[y, x] = (value[source[y, x]] + matrix[j, i]) >> 20
-                i += 1
-                if i == side:
-                    i = 0
+            x = 0
+            while x < width:
+                # As far as the matrix goes: without looking each time whether it is at its end.
+                for k in range(min(side - i, width - x)):
+                    target[y, x + k] = (value[source[y, x + k]] + matrix[j, i + k]) >> 20
+                x += side - i
+                i = 0
             continue
         for x in range(width):
             exact = value[source[y, x]]
