@@ -54,7 +54,8 @@ def find(name: str, size: float | None, bold: bool, italic: bool, antialias: boo
     """Find and read an installed font; see `Font.find`."""
     if not isinstance(name, str):
         raise TypeError(f"name must be a string, not {type(name).__name__}")
-    check_size(size)
+    if size is not None:
+        check_size(size)
     fonts = list(installed())
     query = _plain(name)
     ranked = sorted(

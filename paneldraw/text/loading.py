@@ -35,7 +35,8 @@ Reader = Callable[[bytes, str, "str | None"], Strike]
 def load(path: str | os.PathLike[str], size: float | None, antialias: bool | None, encoding: str | None) -> Font:
     """Read a font file; see `Font.load`."""
     place, wanted = _named(os.fspath(path))
-    check_size(size)
+    if size is not None:
+        check_size(size)
     if encoding is not None:
         charsets.check(encoding)
     start, rest = _contents(place)
@@ -60,10 +61,8 @@ def _contents(place: Path) -> tuple[bytes, bytes]:
         ) from error
 
 
-def check_size(size: float | None) -> None:
+def check_size(size: float) -> None:
     """Refuse what is no size."""
-    if size is None:
-        return
     if isinstance(size, bool) or not isinstance(size, (int, float)):
         raise TypeError(f"size must be a number of pixels, not {type(size).__name__}")
     if not 0 < size <= 4096:

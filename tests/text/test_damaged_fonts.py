@@ -189,3 +189,18 @@ def test_no_installed_font_of_the_same_name_stands_in_for_a_damaged_one(tmp_path
     path.write_bytes(sample.installed(Path("/usr/share/fonts/truetype/dejavu") / path.name).read_bytes()[:500])
     with pytest.raises(OSError, match="cannot read font"):
         load(path, 12)
+
+
+@pytest.mark.parametrize("load", [Font.load, Font.truetype])
+@pytest.mark.parametrize(("size", "kind"), [(0, ValueError), (float("nan"), ValueError), ("12", TypeError)])
+def test_sizes_of_outlines_that_are_none(load, size, kind):
+    with pytest.raises(kind, match=r"^size must be (positive|a number of pixels)"):
+        load(sample.installed(Path("/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf")), size)
+
+
+def test_an_outline_must_be_given_a_size():
+    path = sample.installed(Path("/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf"))
+    with pytest.raises(ValueError, match="size must be given"):
+        Font.load(path)
+    with pytest.raises(TypeError, match="size must be a number of pixels, not NoneType"):
+        Font.truetype(path, None)
