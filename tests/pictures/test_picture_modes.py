@@ -207,7 +207,7 @@ def test_damaged_files(package, damage, tmp_path):
     chunk = file.getvalue().replace(b"IDAT", bytes(4))
     data = {"cut": file.getvalue()[:200], "chunk": chunk, "noise": bytes(range(200)), "empty": b""}[damage]
     (tmp_path / "a.png").write_bytes(data)
-    with pytest.raises(OSError, match="picture"):
+    with pytest.raises(OSError, match=r"image file|^picture .*a\.png"):
         package.Framebuffer(8, 8).image(tmp_path / "a.png")
 
 
