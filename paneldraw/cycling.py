@@ -4,13 +4,27 @@ from __future__ import annotations
 
 import time
 import warnings
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
-from paneldraw.update.greys import LEAST_RATE, PACES, STEADY, Choice, Cycle, Forecaster, Levels, choose
+from paneldraw.update.greys import (
+    GREYS,
+    LEAST_RATE,
+    PACES,
+    RESPONSES,
+    Choice,
+    Cycle,
+    Forecaster,
+    Levels,
+    Pace,
+    Response,
+    choose,
+)
 
 if TYPE_CHECKING:
+    from paneldraw.controllers import Controller
     from paneldraw.driver import Driver
     from paneldraw.panel import Stats
 
@@ -31,14 +45,28 @@ class Cycling:
         How much of the wire the sub-pictures may take.
     bus_clock : float or None
         Bits a second of the wire. Default: what the bus says, else 400 000.
+    weighted : bool or sequence of float
+        Whether the contrast makes sub-pictures worth more than others; or the light at each contrast.
+    updates : str
+        As `Panel` has it.
 
     Raises
     ------
     ValueError
-        A chip that has greys of its own or is too slow, or a setting that does not exist.
+        A chip that has greys of its own, too many for the chip or the wire, or a setting that does not exist.
     """
 
-    def __init__(self, driver: Driver, stats: Stats, greys: int, bus_share: float, bus_clock: float | None) -> None:
+    def __init__(
+        self,
+        driver: Driver,
+        stats: Stats,
+        greys: int,
+        *,
+        bus_share: float,
+        bus_clock: float | None,
+        weighted: bool | Sequence[float],
+        updates: str,
+    ) -> None:
         chip = driver.controller
         if chip.depth > 1:
             raise ValueError(
@@ -51,13 +79,33 @@ class Cycling:
             raise ValueError(f"bus_clock must be Hz above 0, or None, not {bus_clock!r}")
         self._driver, self._stats, self.greys = driver, stats, greys
         self._bus_share, self._clock = bus_share, bus_clock or _bits_a_second(driver.transport)
-        self._forecaster = Forecaster(chip, driver.cost)
-        self._paces = [(command, chip.height * seconds) for command, seconds in PACES.get(chip.name, ())]
-        self._sub_pictures: list[Levels] = []
+        self._response = _response(chip, weighted)
+        if self._response is not None and driver.contrast is None:
+            driver.contrast = 255
+        self._forecaster = Forecaster(chip, driver.cost, updates)
+        self._choice: Choice | None = None
         self._still: Levels = np.zeros((chip.height, chip.width), np.uint8)
-        self._slot = self._due = 0.0
+        self._due = 0.0
         self._turn = 0
-        self._pace = b""
+        self._pace: Pace | None = None
+        self._check()
+
+    def _check(self) -> None:
+        """See that one gray pixel can be shown."""
+        levels = np.zeros_like(self._still)
+        levels[0, 0] = 1
+
+        def able(greys: int) -> bool:
+            choice = self._chosen(levels, greys - 1, greys)
+            return choice is not None and choice.cycle.greys == greys
+
+        if not able(self.greys):
+            most = max((greys for greys in GREYS if greys < self.greys and able(greys)), default=1)
+            advice = "" if self._response is not None else ", or be shown with weighted=True"
+            raise ValueError(
+                f"greys must be at most {most} for the {self._driver.controller.name} on this wire, where more take "
+                f"longer than 1/{LEAST_RATE:g} s a cycle{advice}, not {self.greys}"
+            )
 
     @property
     def depth(self) -> int:
@@ -67,7 +115,7 @@ class Cycling:
     @property
     def going(self) -> bool:
         """Whether there is a sub-picture to come."""
-        return self._slot > 0
+        return self._choice is not None
 
     @property
     def within(self) -> bool:
@@ -81,50 +129,74 @@ class Cycling:
 
     def choose(self, levels: Levels, max_level: int) -> tuple[Choice | None, Levels]:
         """Return the cycle for a picture, as the unturned glass has it, and the picture without grey."""
-        choice = choose(
-            self._forecaster,
-            levels,
-            max_level,
-            self.greys,
-            self._clock,
-            bus_share=self._bus_share,
-            paces=self._paces,
-        )
+        choice = self._chosen(levels, max_level, self.greys)
         if choice is None or choice.cycle.greys < self.greys:
             self._say_fewer(choice)
         return choice, (2 * levels > max_level).astype(np.uint8)
 
-    def begin(self, choice: Choice | None, levels: Levels, max_level: int, still: Levels) -> None:
+    def _chosen(self, levels: Levels, max_level: int, greys: int) -> Choice | None:
+        return choose(
+            self._forecaster,
+            levels,
+            max_level,
+            greys,
+            self._clock,
+            weighted=self._response is not None,
+            bus_share=self._bus_share,
+            paces=PACES.get(self._driver.controller.name, ()),
+            lines=self._driver.controller.height,
+        )
+
+    def begin(self, choice: Choice | None, still: Levels) -> None:
         """Have the next turn be the first of a picture's."""
+        before, driver = self._choice, self._driver
         self._still, self._turn = still, 0
-        self._slot = choice.slot if choice else 0.0
-        if choice is None or not choice.slot:
-            self._sub_pictures = [still]
-            return
-        cycle = choice.cycle
-        self._sub_pictures = list(cycle.pictures(cycle.steps(levels, max_level)))
-        if choice.pace not in (b"", self._pace):
-            self._driver.change(lambda: (STEADY, choice.pace))
-            self._driver.kept = [command for command in self._driver.kept if command not in (STEADY, self._pace)]
-            self._driver.kept += [STEADY, choice.pace]
-            self._pace = choice.pace
+        self._choice = choice if choice is not None and choice.seconds else None
+        driver.moving = None if self._choice is None else self._choice.moving
+        if self._choice is None:
+            if before is not None and before.cycle.weighted:
+                driver.change(driver.brightness)
+        elif self._choice.pace not in (None, self._pace):
+            self._keep(self._choice.pace)
+
+    def _keep(self, pace: Pace) -> None:
+        """Have the chip scan at a pace, after each start too."""
+        driver, before = self._driver, self._pace.commands if self._pace else ()
+        driver.change(lambda: pace.commands)
+        driver.kept = [*(command for command in driver.kept if command not in before), *pace.commands]
+        self._pace = pace
 
     def turn(self, force: bool = False) -> tuple[int, int, int]:
         """Show the next sub-picture; return bytes on the wire, messages, changed bytes."""
-        now = time.monotonic()
-        self._due = max(self._due + self._slot, now)
-        self._driver.pack(self._sub_pictures[self._turn], 1)
-        self._turn = (self._turn + 1) % len(self._sub_pictures)
-        return self._driver.show(force, time.perf_counter())
+        choice, driver = self._choice, self._driver
+        if choice is None:
+            driver.pack(self._still, 1)
+            return driver.show(force, time.perf_counter())
+        turn, lasts = self._turn, choice.seconds[self._turn]
+        self._turn = (turn + 1) % len(choice.packed)
+        self._due = max(self._due, time.monotonic() - lasts) + lasts
+        wire = messages = 0
+        if choice.cycle.weighted and not driver.rest:
+            wire, messages = driver.change(lambda: self._brightness(choice.cycle.weights, turn))
+        driver.take(choice.packed[turn])
+        sent = driver.show(force, time.perf_counter())
+        return sent[0] + wire, sent[1] + messages, sent[2]
+
+    def _brightness(self, weights: tuple[int, ...], turn: int) -> tuple[bytes, ...]:
+        """The commands for the contrast that a sub-picture is worth."""
+        contrast, most = self._driver.controller.contrast, self._driver.contrast
+        if contrast is None or most is None or self._response is None:
+            return ()
+        return contrast.commands(self._response.contrasts(weights, most)[turn])
 
     def stop(self) -> None:
         """Have no sub-picture come."""
-        self._slot = 0.0
+        self._choice = self._driver.moving = None
 
     def settle(self) -> None:
         """Leave the picture without grey: the cycle has ended for good."""
         if self.going:
-            self.begin(None, self._still, 1, self._still)
+            self.begin(None, self._still)
             self.turn()
 
     def _say_fewer(self, choice: Choice | None) -> None:
@@ -137,6 +209,23 @@ class Cycling:
                 RuntimeWarning,
                 stacklevel=2,
             )
+
+
+def _response(chip: Controller, weighted: bool | Sequence[float]) -> Response | None:
+    """How a chip's light follows its contrast, where that is to weigh sub-pictures."""
+    given = np.ndim(weighted) > 0
+    if not given and not weighted:
+        return None
+    if chip.contrast is None or not chip.contrast.command or not (given or chip.name in RESPONSES):
+        raise ValueError(
+            f"weighted must be False for the {chip.name}, of which it is not known how light follows contrast"
+        )
+    response = Response(tuple(weighted), "given") if given else RESPONSES[chip.name]  # type: ignore[arg-type]
+    try:
+        response.contrasts((1,), 255)
+    except ValueError as error:
+        raise ValueError(f"weighted must be True, False, or the light at each contrast: {error}") from None
+    return response
 
 
 def _bits_a_second(transport: Any) -> float:

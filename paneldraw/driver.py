@@ -77,6 +77,8 @@ class Driver:
     contrast, drive, all_on, inverted, asleep, rest, kept
         The settings: the brightness, the commands beside its own, whether every pixel is lit, and so on; the rest is
         ``"dim"``, ``"off"`` or nothing; and commands that a script wants after each start.
+    moving : array of bool or None
+        Bytes that are sent with every picture, changed or not, in the same order.
     """
 
     def __init__(
@@ -99,6 +101,7 @@ class Driver:
         self.all_on = self.inverted = self.asleep = False
         self.rest = ""
         self.kept: list[bytes] = []
+        self.moving: npt.NDArray[np.bool_] | None = None
         self._effect, self._effect_lights = b"", False
         self._stirred = self._scrolling = False  # whether the chip moved its RAM, and whether it still does
         self._unsure: npt.NDArray[np.bool_] | None = None  # bytes of RAM that single steps of a scroll brought in
@@ -116,10 +119,12 @@ class Driver:
     def pack(self, pixels: Levels, max_level: int) -> None:
         """Take a picture, as the unturned glass has it."""
         if not self._plain:  # a chip that cannot mirror, or has bands of the picture beside each other
-            chip = self.controller
-            pixels = pixels[:: -1 if chip.mirror_y else 1, :: -1 if chip.mirror_x else 1]
-            pixels = np.hstack(np.split(pixels, chip.bands))
+            pixels = self.controller.arranged(pixels)
         self._pack(pixels, max_level, self._picture)
+
+    def take(self, packed: Levels) -> None:
+        """Take a picture that is packed."""
+        np.copyto(self._picture, packed)
 
     def _prepare_adjusting(self) -> None:
         """See what the chip has no command for: the picture is sent inverted, or dimmed, then."""
@@ -158,20 +163,21 @@ class Driver:
         self.attempt(self._restore)
         self._asked = _NOTHING
 
-    def change(self, commands: Callable[[], Iterable[bytes]]) -> None:
+    def change(self, commands: Callable[[], Iterable[bytes]]) -> Sent:
         """Send commands for a setting; first bring back the picture where the panel may have lost it."""
 
-        def operation() -> None:
+        def operation() -> Sent:
             if self.ready:
                 self.ready = False
             else:
                 self._restore()  # which knows all settings
-            self.command(*commands())
+            sent = self.command(*commands())
             self.ready = True
             if self.shown and self._adjusts:
                 self._send()
+            return sent
 
-        self.attempt(operation)
+        return self.attempt(operation)
 
     def look_again(self) -> None:
         """Ask the chip with the next picture whether it still has its power, however lately it was asked."""
@@ -278,6 +284,9 @@ class Driver:
             self._adjust()
         if self._stirred:
             wire, messages = self._calm()
+        if self.moving is not None:
+            np.invert(self._planner.fresh, out=self._planner.shadow, where=self.moving)
+            self._planner.doubt()
         plan = self._planner.plan()
         if plan.count:
             wire += self._wire.batch(plan)

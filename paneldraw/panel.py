@@ -9,7 +9,7 @@ import os
 import sys
 import threading
 import time
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Final, Literal, NamedTuple
 
@@ -74,6 +74,7 @@ class Stats:
     """Sums over all `Report`s of a panel, and what went wrong on the way."""
 
     frames: int = 0
+    """Pictures, however many sub-pictures make their greys."""
     unchanged: int = 0
     wire_bytes: int = 0
     messages: int = 0
@@ -85,16 +86,18 @@ class Stats:
     """How often the chip was started anew: after faults, lost power, `Panel.invalidate` and ``show(force=True)``."""
     dropped: int = 0
     """Pictures of ``show(wait=False)`` that a later one overtook."""
+    sub_pictures: int = 0
+    """What a panel with `greys` sent of its pictures, the first of each included."""
     fewer_greys: int = 0
     """Pictures of a panel with `greys` that the wire carries in fewer only."""
     faults: dict[str, int] = field(default_factory=dict)
     """How many faults of each kind, by the system's name for them."""
 
-    def add(self, report: Report) -> None:
-        """Count one more show."""
+    def add(self, report: Report, picture: bool = True) -> None:
+        """Count one more show, which may be that of a sub-picture alone."""
         wire_bytes, messages, changed_bytes, seconds, _ = report
-        self.frames += 1
-        self.unchanged += not changed_bytes
+        self.frames += picture
+        self.unchanged += picture and not changed_bytes
         self.wire_bytes += wire_bytes
         self.messages += messages
         self.changed_bytes += changed_bytes
@@ -143,6 +146,10 @@ class Panel:
     bus_clock : float, optional
         Bits a second of the wire, by which it is known beforehand how many greys it carries. Default: what the
         transport says, else 400 000, that of a fast I2C bus.
+    weighted : bool or sequence of float, optional
+        Whether the contrast makes a sub-picture worth several of another, so that fewer make as many greys: more often,
+        and less true, as lines that are scanned between contrast and data show the one with the other. Or how much
+        light there is at contrast 0 to 255, where that was measured. Default: False.
 
     Attributes
     ----------
@@ -183,16 +190,16 @@ class Panel:
         greys: int = 1,
         bus_share: float = 0.8,
         bus_clock: float | None = None,
+        weighted: bool | Sequence[float] = False,
     ) -> None:
         record = _record(controller)
         transport = _carrier(transport, record)
         try:
             self._set_up(record, transport, contrast, updates, refresh)
-            self._cycling = None if greys == 1 else Cycling(self._driver, self.stats, greys, bus_share, bus_clock)
-            if self._cycling is not None and (dim_after or off_after or pixel_shift):
-                raise ValueError(
-                    "dim_after, off_after and pixel_shift must be None with greys, which change all the time"
-                )
+            wire: dict[str, Any] = {"bus_share": bus_share, "bus_clock": bus_clock, "weighted": weighted}
+            self._cycling = (
+                None if greys == 1 else Cycling(self._driver, self.stats, greys, **wire, updates=updates)
+            )
             self._care = Care(dim_after, off_after, pixel_shift, time.monotonic())
             self.rotate = rotate
             _check_on_close(on_close)
@@ -641,8 +648,8 @@ class Panel:
         """
         self._driver.wake()
         self._change(self._driver.power)
-        if self._cycling is not None and self._cycling.going:
-            self._own_sender().wake_at(self._cycling.due)
+        if self._cycles:
+            self._wake_in_time()
 
     def invalidate(self) -> None:
         """Say that the panel's state is unknown, after a power cut for instance: the next show starts it anew."""
@@ -810,19 +817,24 @@ class Panel:
 
     def _show_greys(self, pixels: Levels, max_level: int, force: bool, cycling: Cycling) -> Report:
         """End the cycle of the last picture and begin one of another."""
+        if self._care.needed:
+            with self._lock:
+                pixels = self._cared_for(pixels, max_level)
         upright = np.ascontiguousarray(self._upright(pixels))
         choice, still = cycling.choose(upright, max_level)
-        while cycling.within:
+        while cycling.going:
             time.sleep(max(0.0, cycling.due - time.monotonic()))
+            if not cycling.within:
+                break
             self._take_turn(cycling)
         with self._lock:
             if self._closed or self._foreign:
                 self._check()
-            cycling.begin(choice, upright, max_level, still)
-        return self._take_turn(cycling, force)
+            cycling.begin(choice, still)
+        return self._take_turn(cycling, force, picture=True)
 
-    def _take_turn(self, cycling: Cycling, force: bool = False) -> Report:
-        """Show the next sub-picture, and see to the one after."""
+    def _take_turn(self, cycling: Cycling, force: bool = False, *, picture: bool = False) -> Report:
+        """Show the next sub-picture, of another picture or the same, and see to the one after."""
         started = time.perf_counter()
         report = _QUEUED
         with self._lock:
@@ -836,9 +848,9 @@ class Panel:
                 raise
             finally:
                 self._catch_up()
-            self.stats.add(report)
-            if cycling.going and not self._driver.asleep:
-                self._own_sender().wake_at(cycling.due)
+            self.stats.add(report, picture)
+            self.stats.sub_pictures += 1
+            self._wake_in_time()
         return report
 
     def _catch_up(self) -> bool:
@@ -878,25 +890,47 @@ class Panel:
             self._last = pixels.copy(), max_level
             self._driver.wake_from_rest()
             self._care.changed(time.monotonic())
-            self._own_sender().wake_at(self._care.due())
+            self._wake_in_time()
         return self._care.moved(pixels)
 
+    def _wake_in_time(self) -> None:
+        """Have the sender look after the panel when the next sub-picture or care is due."""
+        due = self._care.due() if self._care.needed else None
+        if self._cycles:
+            due = self._cycling.due if due is None else min(due, self._cycling.due)  # type: ignore[union-attr]
+        if due is not None or self._care.needed:
+            self._own_sender().wake_at(due)
+
+    @property
+    def _cycles(self) -> bool:
+        """Whether there are sub-pictures to send."""
+        return (
+            self._cycling is not None
+            and self._cycling.going
+            and not self._driver.asleep
+            and self._driver.rest != "off"
+        )
+
     def _look_after(self) -> None:
-        """Do what is due when no other picture came for a while."""
-        if self._cycling is not None:
-            if self._cycling.going and not self._driver.asleep:
-                self._take_turn(self._cycling)
-            return
+        """Send the next sub-picture, and do what is due when no other picture came for a while."""
+        if self._care.needed:
+            self._take_care()
+        if self._cycles and time.monotonic() >= self._cycling.due:  # type: ignore[union-attr]
+            self._take_turn(self._cycling)  # type: ignore[arg-type]
+
+    def _take_care(self) -> None:
         with self._lock:
             if self._closed or self._foreign:
                 return
             before = self._care.rest
-            moves = self._care.act(time.monotonic())
+            moves = self._care.act(time.monotonic()) and self._driver.shown
             if self._care.rest != before:
                 self._driver.go_to_rest(self._care.rest)
-            if moves and self._driver.shown:
+            if moves and self._cycling is None:
                 self._show_now(*self._last, False, time.perf_counter())
-            self._own_sender().wake_at(self._care.due())
+            self._wake_in_time()
+        if moves and self._cycling is not None:
+            self._show_greys(*self._last, False, self._cycling)
 
 
 def _record(controller: Any) -> Controller:

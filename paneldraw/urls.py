@@ -29,6 +29,8 @@ _PANEL: Final = {
     **dict.fromkeys(("refresh", "dim_after", "off_after", "pixel_shift"), "60"),
     "greys": "4",
     "bus_clock": "400000",
+    "bus_share": "0.8",
+    "weighted": "1",
 }
 """Settings of `Panel`, each with an example where it is a number."""
 _SWITCHES: Final = ("mirror_x", "mirror_y", "mirror_blocks", "charge_pump", "internal_reference", "chained_control")
@@ -423,7 +425,13 @@ def _switch(query: dict[str, str], name: str) -> bool:
     return _YES[query[name].lower()]
 
 
-def _number(text: str, name: str, example: str) -> int:
+def _number(text: str, name: str, example: str) -> Any:
+    """Read a number of an example's kind."""
+    if "." in example:
+        try:
+            return float(text)
+        except ValueError:
+            raise ValueError(f"{name} must be a number, such as {example}, not {text!r}") from None
     try:
         return int(text, 0)
     except ValueError:

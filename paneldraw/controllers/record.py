@@ -5,6 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Final
 
+import numpy as np
+import numpy.typing as npt
+
+Levels = npt.NDArray[np.uint8]
+
 #: Pixels that share a byte, by packing: columns and rows.
 PACKINGS: Final = {"pages": (1, 8), "nibbles": (2, 1), "rows": (8, 1), "bits": (1, 1), "bytes": (1, 1)}
 #: Kinds of bus, by the name that a transport and a record give them.
@@ -397,6 +402,11 @@ class Controller:
     def depth(self) -> int:
         """Bits a pixel."""
         return _DEPTHS[self.packing]
+
+    def arranged(self, pixels: Levels) -> Levels:
+        """Return a picture as the RAM has it: mirrored where the chip cannot, and its bands beside each other."""
+        pixels = pixels[:: -1 if self.mirror_y else 1, :: -1 if self.mirror_x else 1]
+        return np.hstack(np.split(pixels, self.bands)) if self.bands > 1 else pixels
 
     @property
     def cell(self) -> tuple[int, int]:

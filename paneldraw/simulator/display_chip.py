@@ -279,7 +279,7 @@ class DisplayChip(Chip):
         """Return the light that an eye saw of each pixel in the last seconds, on average.
 
         The chip scans its lines in its own time, `frame_seconds` a picture, and each shows what RAM and registers hold
-        in that moment. Scans that were complete in that time are counted. `remembers` must have been set; what the
+        in that moment. What a line was lit in that time is counted, at least one scan of it. `remembers` must have been set; what the
         chip held then counts for the time before.
 
         Parameters
@@ -308,22 +308,22 @@ class DisplayChip(Chip):
         >>> round(float(chip.seen(0.1).mean()), 3)  # contrast 7F of FF
         0.498
         """
-        return np.asarray(self._scans(seconds).mean(axis=0))
+        return self._remembered(lambda timeline: timeline.seen(seconds))
 
     def flicker(self, seconds: float) -> NDArray[np.float64]:
         """Return each pixel's strongest component below 50 Hz in the last seconds, relative to its light.
 
         `seconds` is as in `seen`, and the slowest flicker that is found takes as long.
         """
-        return flicker(self._scans(seconds), self.frame_seconds)
+        return flicker(self._remembered(lambda timeline: timeline.scans(seconds)), self.frame_seconds)
 
-    def _scans(self, seconds: float) -> NDArray[np.float64]:
+    def _remembered(self, look: Callable[[Timeline], NDArray[np.float64]]) -> NDArray[np.float64]:
+        """What a look at the timeline finds, while nothing comes."""
         found: list[NDArray[np.float64]] = []
-
         timeline = self.timeline
         if timeline is None:
             raise ValueError("remembers must be True before there is something to see over time")
-        self._at_rest(lambda: found.append(timeline.scans(seconds)))
+        self._at_rest(lambda: found.append(look(timeline)))
         return found[0]
 
     # inside

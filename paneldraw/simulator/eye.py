@@ -113,6 +113,25 @@ class Timeline:
         ValueError
             Not one scan fits, or the past is not known so long.
         """
+        return self._flashes(*self._window(seconds))[1]
+
+    def seen(self, seconds: float) -> Light:
+        """Return the mean light of the flashes of each line in the last seconds, shape (height, width).
+
+        Raises
+        ------
+        ValueError
+            Not one scan fits, or the past is not known so long.
+        """
+        first, last = self._window(seconds)
+        moments, light = self._flashes(max(first - 1, 0), last + 1)
+        counted = (moments >= self.now - seconds) & (moments < self.now)
+        lines = np.swapaxes(light, 1, 2) if self._chip.transposed else light
+        mean = (lines * counted[:, :, None]).sum(axis=0) / counted.sum(axis=0)[:, None]
+        return mean.T if self._chip.transposed else mean
+
+    def _window(self, seconds: float) -> tuple[int, int]:
+        """Which scans are whole in the last seconds: the first one, and the one behind the last."""
         if not 0 < seconds <= MEMORY:
             raise ValueError(f"seconds must be above 0 and at most {MEMORY:g}, not {seconds!r}")
         period = self._chip.frame_seconds
@@ -121,6 +140,11 @@ class Timeline:
             raise ValueError(
                 f"seconds must be {period:.4f} or more, the time of a scan, and have passed, not {seconds!r}"
             )
+        return first, last
+
+    def _flashes(self, first: int, last: int) -> tuple[Light, Light]:
+        """When each line is lit in each of some scans, and the light of these scans."""
+        period = self._chip.frame_seconds
         shares = self._chip._scan_order()
         moments = (np.arange(first, last)[:, None] + shares) * period
         order = np.argsort(moments, axis=None)
@@ -137,7 +161,7 @@ class Timeline:
                 lines[scan[at:stop], line[at:stop]] = (seen.T if twin.transposed else seen)[line[at:stop]]
                 at = stop
             _apply(twin, change)
-        return light
+        return moments, light
 
     def _changes(self, moments: Light) -> Iterator[tuple[float, Cells | State | tuple[Any, ...] | None]]:
         """All changes in order, of data those cells apart between which a line is scanned; None is the end."""

@@ -40,6 +40,9 @@ class Plans(Protocol):
     def forget(self) -> None:
         """Note that nothing is known of the panel."""
 
+    def doubt(self) -> None:
+        """Note that nothing is known of how the chip is addressed: the next plan depends on what it changes alone."""
+
     def restart(self) -> None:
         """Note that the chip took its init."""
 

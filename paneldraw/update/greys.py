@@ -31,19 +31,39 @@ GREYS: Final = (3, 4, 5, 8, 16)
 """How many greys there can be, black and white among them."""
 _WEIGHTS: Final = {3: (1, 1), 4: (1, 2), 5: (1, 1, 2), 8: (1, 2, 4), 16: (1, 2, 4, 8)}
 """What sub-pictures add to the light, where the contrast makes it differ."""
-PACES: Final = {
-    name: tuple((bytes((0xD5, code << 4)), 54 / (210_000 + 20_000 * code)) for code in range(15, -1, -1))
-    for name in ("ssd1306", "ssd1309", "ssd1315", "ssd1312")
-}
-"""Commands that set how fast a chip scans, and the seconds that it takes a line, by chip, the fastest first.
-
-With `STEADY` before them. Assumed: 370 kHz at code 8, as the sheet of the SSD1306 has it, and even steps to the others;
-each chip's own oscillator is off by some percent.
-"""
-STEADY: Final = b"\xd9\x22"
-"""A precharge of 4 of the 54 clocks a line."""
 LEAST_RATE: Final = 40.0
 """Cycles a second below which the eye sees them."""
+STEADY_RATE: Final = 50.0
+"""Cycles a second from which on more are no better."""
+TORN: Final = 1 / 8
+"""By how much of a scan a sub-picture may last too long: so many lines show it once too often."""
+
+
+class Pace(NamedTuple):
+    """How fast a chip scans."""
+
+    line_seconds: float
+    """Seconds that it takes a line."""
+    commands: tuple[bytes, ...]
+    """What makes it so fast."""
+
+
+def _paces() -> tuple[Pace, ...]:
+    """Paces of the SSD1306 and its like: 50 clocks a line and 2 to 5 of precharge, at 16 speeds of the oscillator."""
+    found = [
+        Pace((51 + last) / (210_000 + 20_000 * code), (bytes((0xD9, last << 4 | 1)), bytes((0xD5, code << 4))))
+        for code in range(16)
+        for last in range(1, 5)
+    ]
+    return tuple(sorted(found))
+
+
+PACES: Final = dict.fromkeys(("ssd1306", "ssd1309", "ssd1315", "ssd1312"), _paces())
+"""By chip, the fastest first.
+
+Assumed: 370 kHz at code 8, as the sheet of the SSD1306 has it, and even steps to the others; each chip's own oscillator
+is off by up to a tenth.
+"""
 
 
 class Response(NamedTuple):
@@ -92,32 +112,42 @@ class Cycle:
         How many levels: 3, 4, 5, 8 or 16.
     weighted : bool, optional
         Whether the contrast makes sub-pictures worth more than others. Default: False.
+    timed : bool, optional
+        Whether some last longer than others. Default: False.
 
     Attributes
     ----------
     weights : tuple of int
         What each sub-picture adds to a level, in order of their numbers; the sum is the highest level.
+    lasts : tuple of int
+        How long each lasts, in scans.
 
     Raises
     ------
     ValueError
-        Any other number of greys.
+        Any other number of greys, or both ways at once.
 
     Examples
     --------
     >>> Cycle(4).weights, Cycle(4, weighted=True).weights
     ((1, 1, 1), (1, 2))
+    >>> Cycle(4, timed=True).lasts
+    (1, 2)
     >>> Cycle(4).pictures(np.array([[0, 1, 2, 3]], np.uint8)).sum(axis=0).tolist()
     [[0, 1, 2, 3]]
     """
 
-    def __init__(self, greys: int, *, weighted: bool = False) -> None:
+    def __init__(self, greys: int, *, weighted: bool = False, timed: bool = False) -> None:
         if greys not in GREYS:
             raise ValueError(f"greys must be one of {', '.join(map(str, GREYS))}, not {greys!r}")
-        self.greys, self.weighted = greys, weighted
-        self.weights = _WEIGHTS[greys] if weighted else (1,) * (greys - 1)
-        self._turns = 1 if weighted else greys - 1
-        self._lit = _lit_by_weight(self.weights) if weighted else _lit_by_phase(greys)
+        if weighted and timed:
+            raise ValueError("weighted and timed must not both be True")
+        self.greys, self.weighted, self.timed = greys, weighted, timed
+        together = weighted or timed
+        self.weights = _WEIGHTS[greys] if together else (1,) * (greys - 1)
+        self.lasts = self.weights if timed else (1,) * len(self.weights)
+        self._turns = 1 if together else greys - 1
+        self._lit = _lit_by_weight(self.weights) if together else _lit_by_phase(greys)
 
     def steps(self, levels: Levels, max_level: int, gamma: float = 1.0) -> Levels:
         """Return which of the greys each level is nearest to, by its share of light, (level / max_level) ** gamma."""
@@ -128,16 +158,6 @@ class Cycle:
         """Return the sub-pictures, 0 and 1, shape (sub-pictures, height, width), in the order of `weights`."""
         height, width = steps.shape
         return self._lit[:, steps, phases(height, width, self._turns)]
-
-    def order(self, packed: Sequence[NDArray[np.uint8]]) -> tuple[int, ...]:
-        """Return the order of sub-pictures, round and round, in which the fewest packed bytes change."""
-        if self._turns > 1 or len(packed) < 4:  # each pixel's follow one another; of three there is but one order
-            return tuple(range(len(packed)))
-        changed = [[np.count_nonzero(one != other) for other in packed] for one in packed]
-        orders = ((0, *rest) for rest in itertools.permutations(range(1, len(packed))))
-        return min(
-            orders, key=lambda order: sum(changed[a][b] for a, b in zip(order, order[1:] + order[:1], strict=True))
-        )
 
 
 def _lit_by_phase(greys: int) -> Levels:
@@ -168,33 +188,20 @@ def phases(height: int, width: int, count: int) -> NDArray[np.intp]:
 
 
 class Forecast(NamedTuple):
-    """What the cycles of a picture take on the wire.
+    """What each sub-picture of a cycle takes on the wire."""
 
-    Attributes
-    ----------
-    wire_bytes : tuple of int
-        Of each sub-picture, coming from the one before.
-    messages : tuple of int
-    """
+    wire_bytes: int
+    messages: int
 
-    wire_bytes: tuple[int, ...]
-    messages: tuple[int, ...]
-
-    def slot(self, clock: float, bus_share: float = 1.0) -> float:
-        """Return the seconds that each sub-picture gets: all as many as the largest takes on an I2C bus."""
-        each = zip(self.wire_bytes, self.messages, strict=True)
-        return max(9 * size + count + (size > 0) for size, count in each) / clock / bus_share
-
-    def rate(self, clock: float, bus_share: float = 1.0) -> float:
-        """Return cycles a second at a clock in Hz; infinite where nothing changes.
+    def seconds(self, clock: float) -> float:
+        """Return how long it takes on an I2C bus of a clock in Hz; 0 where nothing changes.
 
         Examples
         --------
-        >>> round(Forecast((299, 299, 299), (1, 1, 1)).rate(400_000), 1)
-        49.5
+        >>> round(1000 * Forecast(299, 1).seconds(400_000), 2)
+        6.73
         """
-        slot = self.slot(clock, bus_share)
-        return 1 / (len(self.wire_bytes) * slot) if slot else float("inf")
+        return (9 * self.wire_bytes + self.messages + 1) / clock if self.messages else 0.0
 
 
 class Forecaster:
@@ -212,32 +219,31 @@ class Forecaster:
 
     def __init__(self, controller: Controller, cost: Cost, updates: str = "least") -> None:
         self._planner = planner_for(controller, cost, updates)
-        self._pack, self._bands = packer(controller), controller.bands
-        self._contrast = 0 if controller.contrast is None else cost.command + len(controller.contrast.commands(0)[0])
+        self._controller, self._pack = controller, packer(controller)
+        contrast = () if controller.contrast is None else controller.contrast.commands(0)
+        self._contrast = cost.command + sum(map(len, contrast))
+        self._planner.plan()
+        self._planner.sent()
 
     def packed(self, pictures: Levels) -> list[NDArray[np.uint8]]:
         """Return sub-pictures as the panel's RAM has them."""
         found = []
         for picture in pictures:
             out = np.zeros_like(self._planner.fresh)
-            self._pack(np.hstack(np.split(picture, self._bands)), 1, out)
+            self._pack(self._controller.arranged(picture), 1, out)
             found.append(out)
         return found
 
-    def forecast(self, cycle: Cycle, packed: Sequence[NDArray[np.uint8]], order: Sequence[int]) -> Forecast:
-        """Return what a cycle takes when it goes round and round."""
-        sizes, counts = [], []
-        for turn in (*order, *order):  # twice: the first time has to come to it
-            np.copyto(self._planner.fresh, packed[turn])
-            plan = self._planner.plan()
-            sizes.append(plan.cost if plan.count else 0)
-            counts.append(plan.count)
-            if plan.count:
-                self._planner.sent()
-        sizes, counts = sizes[len(order) :], counts[len(order) :]
-        if any(sizes) and len(set(cycle.weights)) > 1:
-            sizes, counts = [size + self._contrast for size in sizes], [count + 1 for count in counts]
-        return Forecast(tuple(sizes), tuple(counts))
+    def forecast(self, cycle: Cycle, moving: NDArray[np.bool_]) -> Forecast:
+        """Return what a sub-picture takes that sends all bytes that ever move in a cycle."""
+        planner = self._planner
+        for _ in range(2):  # twice: the first time the chip may have to be told how it is addressed
+            np.invert(planner.fresh, out=planner.shadow, where=moving)
+            planner.doubt()
+            plan = planner.plan()
+            size, count = (plan.cost, plan.count) if plan.count else (0, 0)
+            planner.sent()
+        return Forecast(size + self._contrast, count + 1) if count and cycle.weighted else Forecast(size, count)
 
 
 class Choice(NamedTuple):
@@ -246,20 +252,24 @@ class Choice(NamedTuple):
     cycle: Cycle
     packed: list[NDArray[np.uint8]]
     """The sub-pictures, in the order in which they are sent."""
-    weights: tuple[int, ...]
+    moving: NDArray[np.bool_]
+    """Which bytes ever change. All are sent each time, so that each comes at the same time of every slot.
+
+    A line that is scanned before its byte comes in one slot, and behind it in the next, would show a sub-picture twice.
+    """
     forecast: Forecast
-    slot: float
-    """Seconds that each sub-picture gets; 0 where there is no grey."""
-    pace: bytes
-    """The command for a scan that takes as long, so that each sub-picture is scanned once; empty where there is none.
+    seconds: tuple[float, ...]
+    """How long each sub-picture lasts; empty where there is no grey."""
+    pace: Pace | None
+    """A scan takes a slot then, so that each sub-picture is scanned just so often.
 
     Else some sub-pictures of a cycle would be scanned twice and others not at all.
     """
 
     @property
     def rate(self) -> float:
-        """Cycles a second."""
-        return 1 / (self.slot * len(self.packed)) if self.slot else float("inf")
+        """Cycles a second; infinite where nothing changes."""
+        return 1 / sum(self.seconds) if self.seconds else float("inf")
 
 
 def choose(
@@ -272,21 +282,46 @@ def choose(
     weighted: bool = False,
     bus_share: float = 0.8,
     gamma: float = 1.0,
-    paces: Sequence[tuple[bytes, float]] = (),
+    paces: Sequence[Pace] = (),
+    lines: int = 64,
 ) -> Choice | None:
     """Return the cycle with the most greys, up to `greys`, that keeps to `LEAST_RATE`; None where there is none.
 
-    `clock` is the bits a second of the wire, and `paces` are commands and the seconds that a scan takes then, rising.
+    `clock` is the bits a second of the wire; `paces` are rising, for a chip of so many `lines`.
+    Of two ways that are steady the one is taken in which neighbors do not blink together.
     """
     for fewer in (grey for grey in reversed(GREYS) if grey <= greys):
-        cycle = Cycle(fewer, weighted=weighted)
-        packed = forecaster.packed(cycle.pictures(cycle.steps(levels, max_level, gamma)))
-        order = cycle.order(packed)
-        forecast = forecaster.forecast(cycle, packed, order)
-        needed = forecast.slot(clock, bus_share)
-        pace, slot = next(((pace, slot) for pace, slot in paces if slot >= needed > 0), (b"", needed))
-        weights = tuple(cycle.weights[place] for place in order)
-        choice = Choice(cycle, [packed[place] for place in order], weights, forecast, slot, pace)
-        if choice.rate >= LEAST_RATE:
-            return choice
+        found = []
+        for cycle in _ways(fewer, weighted):
+            packed = forecaster.packed(cycle.pictures(cycle.steps(levels, max_level, gamma)))
+            moving = functools.reduce(np.logical_or, (one != packed[0] for one in packed[1:]))
+            forecast = forecaster.forecast(cycle, moving)
+            seconds, pace = _slots(cycle, forecast.seconds(clock), bus_share, paces, lines)
+            found.append(Choice(cycle, packed, moving, forecast, seconds, pace))
+        best = max(found, key=lambda choice: min(choice.rate, STEADY_RATE))
+        if best.rate >= LEAST_RATE:
+            return best
     return None
+
+
+def _ways(greys: int, weighted: bool) -> tuple[Cycle, ...]:
+    if weighted:
+        return (Cycle(greys, weighted=True),)
+    return (Cycle(greys), Cycle(greys, timed=True)) if greys > 3 else (Cycle(greys),)
+
+
+def _slots(
+    cycle: Cycle, taken: float, bus_share: float, paces: Sequence[Pace], lines: int
+) -> tuple[tuple[float, ...], Pace | None]:
+    """Return how long each sub-picture lasts that takes so many seconds on the wire, and the pace of the scan."""
+    if not taken:
+        return (), None
+    count, scans = len(cycle.lasts), sum(cycle.lasts)
+    least = max(count * taken / (scans * bus_share), taken / (1 + TORN))
+    wanted = max(least, min(taken, 1 / (STEADY_RATE * scans)))  # no more is torn than makes it steady
+    able = [pace for pace in paces if lines * pace.line_seconds >= least]
+    pace = next((pace for pace in reversed(able) if lines * pace.line_seconds <= wanted), able[0] if able else None)
+    scan = lines * pace.line_seconds if pace else wanted
+    seconds = [max(scan * lasts, taken) for lasts in cycle.lasts]
+    seconds[cycle.lasts.index(max(cycle.lasts))] -= sum(seconds) - scan * scans
+    return tuple(seconds), pace

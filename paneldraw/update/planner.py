@@ -147,6 +147,13 @@ class Planner:
         """Note that nothing is known of the panel, neither its RAM nor its addressing."""
         self._writer.forget()
 
+    def doubt(self) -> None:
+        """Note that nothing is known of how the chip is addressed: the next plan depends on what it changes alone."""
+        w = self._writer
+        w.doubt()
+        if w.has_window:
+            w.chip.mode = -1
+
     def restart(self) -> None:
         """Note that the chip took its init: its mode is known, and nothing else."""
         self._writer.restart()

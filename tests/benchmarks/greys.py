@@ -19,11 +19,13 @@ from numpy.typing import NDArray
 
 from paneldraw import ConeFilter, Framebuffer, Panel, Supersample, simulator
 from paneldraw.controllers import SSD1306
+from paneldraw.cycling import Cycling
 from paneldraw.demos.scenes import SCENES
+from paneldraw.panel import Stats
 from paneldraw.raster.blue_noise import thresholds
 from paneldraw.transports import I2CTransport
 from paneldraw.transports.base import Cost
-from paneldraw.update.greys import EVEN, PACES, STEADY, Choice, Forecaster, choose
+from paneldraw.update.greys import EVEN, PACES, Choice, Forecaster, choose
 
 CLOCK = 400_000
 GREYS = 4
@@ -63,46 +65,46 @@ def photograph(fb: Framebuffer) -> None:
 
 
 def scenes() -> Iterator[tuple[str, Levels]]:
-    """Names and pictures."""
+    """Names and pictures, all drawn anti-aliased; scenes of text and straight boxes alone have no grey."""
     drawn: dict[str, Callable[[Framebuffer], None]] = {"wheel": wheel, "disc": disc, "photograph": photograph}
     drawn |= {name: lambda fb, scene=scene: scene(fb, 30) for name, scene in SCENES.items()}  # type: ignore[misc]
     for name, draw in drawn.items():
-        fb = Framebuffer(128, 64, 2)
+        fb = Framebuffer(128, 64, 2, antialias=Supersample(4))
         draw(fb)
         yield name, fb.pixels
 
 
 def chosen(forecaster: Forecaster, levels: Levels, *, weighted: bool, clock: float = CLOCK) -> Choice | None:
     """The cycle for a picture, each sub-picture as long as a scan."""
-    paces = [(command, 64 * line) for command, line in PACES["ssd1306"]]
-    return choose(forecaster, levels, 3, GREYS, clock, weighted=weighted, paces=paces)
+    return choose(forecaster, levels, 3, GREYS, clock, weighted=weighted, paces=PACES["ssd1306"])
 
 
 def look(levels: Levels, choice: Choice, seconds: float, drift: float = 1.0) -> Seen:
-    """Send cycles in slots that are off by a factor, and see how far the light is from the levels."""
+    """Have a panel send cycles, in slots that are off by a factor, and see how far the light is from the levels."""
     chip = simulator.SSD1306(history=1)
     chip.remembers = True
     bus = simulator.I2CBus({0x3C: chip}, CLOCK, timer=None)
-    steps = choice.cycle.steps(levels, 3)
-    pictures = choice.cycle.pictures(steps)
-    contrasts = EVEN.contrasts(choice.cycle.weights, 255)
-    wanted = steps / (choice.cycle.greys - 1)
-    gray = (wanted > 0) & (wanted < 1)
-    full = sum(contrasts) / len(contrasts) / 255
+    wanted = levels / 3
+    gray = (levels > 0) & (levels < 3)
+    weighted = choice.cycle.weighted
+    full = 1.0
+    if weighted:
+        contrasts = EVEN.contrasts(choice.cycle.weights, 255)
+        full = sum(contrasts) / len(contrasts) / 255
     errors = []
     with Panel(SSD1306(), I2CTransport(bus), contrast=255) as panel:
-        for command in filter(None, (STEADY, choice.pace)):
-            panel.command(command)
-        began, next_look, turn = bus.seconds, 0.3, 0
-        now = bus.seconds
+        stats = Stats()
+        cycling = Cycling(panel._driver, stats, GREYS, bus_share=0.8, bus_clock=CLOCK, weighted=weighted, updates="least")
+        cycling.begin(choice, levels)
+        began = now = bus.seconds
+        next_look, turn = 0.3, 0
         while now - began < seconds:
-            if choice.cycle.weighted:
-                panel.contrast(contrasts[turn % len(pictures)])
+            then = now
+            now += choice.seconds[turn] * drift
+            turn = (turn + 1) % len(choice.seconds)
             busy = bus.seconds
-            panel.show(pictures[turn % len(pictures)])
-            turn += 1
-            bus.idle(max(0.0, choice.slot * drift - (bus.seconds - busy)))
-            now += choice.slot * drift
+            cycling.turn()
+            bus.idle(max(0.0, now - then - (bus.seconds - busy)))
             if now - began > next_look:
                 errors.append(100 * np.abs(chip.seen(WINDOW) / full - wanted))
                 next_look += 0.037
@@ -127,15 +129,13 @@ def run(rounds: int) -> None:
         for kind, choice in choices.items():
             if choice is None:
                 print(f"  {name + ', ' + kind:<28} takes more than the wire carries", flush=True)
-            elif choice.slot:
+            elif choice.seconds:
                 _report(name, kind, levels, choice, seconds)
         equal, weighted = choices["equal"], choices["weighted"]
-        if equal and weighted and equal.slot and equal.cycle.greys == weighted.cycle.greys:
-            gain = weighted.forecast.rate(CLOCK) / equal.forecast.rate(CLOCK)
+        if equal and weighted and equal.seconds and equal.cycle.greys == weighted.cycle.greys:
+            gain = weighted.rate / equal.rate
             verdict = measure.VERDICTS.judge(f"{name}, weighted", "cycles of equal ones", gain, LEAST_GAIN)
-            print(
-                f"  {name + ', weighted':<28} {gain:.2f}x the cycles of equal ones on the wire: {verdict}", flush=True
-            )
+            print(f"  {name + ', weighted':<28} {gain:.2f}x the cycles of equal ones: {verdict}", flush=True)
     _sender(rounds)
 
 
@@ -150,9 +150,9 @@ def _report(name: str, kind: str, levels: Levels, choice: Choice, seconds: float
         verdicts += f", 99 % {judge(row, '99 % of errors', MOST_99 / max(seen.most, 1e-9), 1.0)}"
         if name == "clock":
             verdicts += f", rate {judge(row, 'cycles a second', choice.rate / LEAST_RATE, 1.0)}"
-    size = sum(choice.forecast.wire_bytes) / len(choice.packed)
+    way = "timed" if choice.cycle.timed else ""
     print(
-        f"  {name + ', ' + kind:<28}{choice.cycle.greys} greys {size:4.0f} bytes; {choice.rate:5.1f} cycles/s; "
+        f"  {name + ', ' + kind:<28}{choice.cycle.greys} greys {way:<5} {choice.forecast.wire_bytes:4} bytes; {choice.rate:5.1f} cycles/s; "
         f"error mean {seen.mean:4.1f} %, 99 % {seen.most:4.1f} %; of grays {seen.gray_mean:4.1f} %, "
         f"{seen.gray_most:4.1f} %; flicker {seen.flicker:.2f}; at 3 % off: of grays {off.gray_mean:4.1f} %, "
         f"{off.gray_most:4.1f} %, flicker {off.flicker:.2f}   {verdicts}",

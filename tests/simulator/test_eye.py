@@ -51,7 +51,7 @@ def test_a_row_shows_what_the_ram_holds_when_it_is_scanned() -> None:
     bus.idle(5 * SCAN - bus._now + SCAN * 20.6 / 64)  # in the sixth scan, in the middle of row 20
     send(bus, filled(0xFF))
     bus.idle(6.01 * SCAN - bus._now)
-    rows = chip.seen(1.5 * SCAN)[:, 0]
+    rows = chip.seen(1.015 * SCAN)[:, 0]
     # The first byte of page 2 comes 0.26 ms later, when row 21 has been scanned.
     assert np.array_equal(rows, np.arange(64) > 21)
 
@@ -69,7 +69,7 @@ def test_data_reaches_each_row_when_its_byte_has_come() -> None:
     arrived = start + 1 / 400_000 + byte * (page * 128 + column + 3)
     moments = (np.arange(10, 15)[:, None] + (np.arange(64) + 0.5) / 64) * SCAN
     lit = moments[:, :, None] >= arrived.repeat(8, axis=0)[None]
-    assert np.array_equal(chip.seen(5.5 * SCAN), lit.mean(axis=0))
+    assert np.array_equal(chip.seen(5 * SCAN + 2e-6), lit.mean(axis=0))
 
 
 def test_a_reversed_scan_begins_at_the_other_end() -> None:
@@ -87,7 +87,7 @@ def test_a_picture_half_of_the_time_is_half_the_light_and_flickers() -> None:
     for turn in range(40):  # 17.8 Hz
         send(bus, filled(0xFF if turn % 2 else 0))
         bus.idle(start + (turn + 1) * 3 * SCAN + 1e-6 - bus._now)
-    seconds = 60.5 * SCAN
+    seconds = 60 * SCAN + 2e-6
     assert np.allclose(chip.seen(seconds), 0.5)
     assert np.allclose(chip.flicker(seconds), 4 / 3)  # the first component of three scans lit and three dark
 
