@@ -32,7 +32,7 @@ class Sender:
 
     def __init__(self, panel: Panel) -> None:
         self._panel = weakref.ref(panel)
-        self._lock = threading.Lock()
+        self._lock = threading.RLock()  # a signal handler may hand over a picture in the middle of that
         self._change = threading.Condition(self._lock)
         # Rung for the thread; releasing a lock costs a third of notifying a condition.
         self._bell = threading.Lock()

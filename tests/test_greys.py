@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -9,14 +11,17 @@ from hypothesis import strategies as st
 
 from paneldraw import Framebuffer, Panel, Supersample, simulator
 from paneldraw.controllers import SSD1306
+from paneldraw.demos.scenes import SCENES
 from paneldraw.transports import I2CTransport
-from paneldraw.transports.base import Cost
+from paneldraw.transports.base import COMMAND, Cost, Plan
 from paneldraw.update.greys import (
     EVEN,
     GREYS,
     LEAST_RATE,
     PACES,
     RESPONSES,
+    TORN,
+    Choice,
     Cycle,
     Forecast,
     Forecaster,
@@ -35,15 +40,28 @@ def disc() -> Framebuffer:
     return fb
 
 
-@given(st.sampled_from(GREYS), st.booleans(), st.integers(0, 2**32 - 1))
+WAYS = ({}, {"weighted": True}, {"timed": True})
+
+
+@given(st.sampled_from(GREYS), st.sampled_from(WAYS), st.integers(0, 2**32 - 1))
 def test_the_weights_of_the_sub_pictures_a_pixel_is_lit_in_add_up_to_its_level(
-    greys: int, weighted: bool, seed: int
+    greys: int, way: dict[str, bool], seed: int
 ) -> None:
     steps = np.random.default_rng(seed).integers(0, greys, (9, 70), dtype=np.uint8)
-    cycle = Cycle(greys, weighted=weighted)
+    cycle = Cycle(greys, **way)
     pictures = cycle.pictures(steps)
     assert pictures.max() <= 1
     assert np.array_equal(np.tensordot(cycle.weights, pictures, 1), steps)
+
+
+@pytest.mark.parametrize("greys", GREYS)
+def test_what_weighs_more_lasts_longer_or_is_brighter(greys: int) -> None:
+    timed, weighted, equal = Cycle(greys, timed=True), Cycle(greys, weighted=True), Cycle(greys)
+    assert timed.lasts == timed.weights == weighted.weights
+    assert sum(timed.lasts) == sum(equal.lasts) == greys - 1
+    assert set(weighted.lasts) == {1}
+    with pytest.raises(ValueError, match="weighted and timed must not both be True"):
+        Cycle(greys, weighted=True, timed=True)
 
 
 @pytest.mark.parametrize("greys", GREYS)
@@ -78,12 +96,6 @@ def test_levels_go_to_the_nearest_light(greys: int, max_level: int, gamma: float
     assert Cycle(greys).steps(levels, max_level, gamma).tolist() == steps
 
 
-def test_the_order_of_weighted_sub_pictures_is_the_one_of_fewest_changes() -> None:
-    packed = [np.frombuffer(bytes(text, "ascii"), np.uint8) for text in ("aaaa", "bbbb", "aaab", "bbba")]
-    assert Cycle(16, weighted=True).order(packed) in ((0, 2, 1, 3), (0, 3, 1, 2), (0, 2, 3, 1), (0, 1, 3, 2))
-    assert Cycle(5).order(packed) == (0, 1, 2, 3)
-
-
 def test_other_numbers_of_greys_are_refused() -> None:
     with pytest.raises(ValueError, match="greys must be one of 3, 4, 5, 8, 16, not 6"):
         Cycle(6)
@@ -103,58 +115,119 @@ def test_a_table_that_is_none_is_refused(light: tuple[float, ...]) -> None:
         Response(light, "").contrasts((1, 2), 255)
 
 
-@pytest.mark.parametrize("weighted", [False, True])
-def test_the_forecast_is_what_a_panel_sends(weighted: bool) -> None:
-    fb, cycle = disc(), Cycle(4, weighted=weighted)
+def chosen(levels: np.ndarray, max_level: int = 3, greys: int = 4, clock: float = CLOCK, **how: Any) -> Choice | None:
+    how = {"paces": PACES["ssd1306"]} | how
+    return choose(Forecaster(SSD1306(), COST), levels, max_level, greys, clock, **how)
+
+
+@pytest.mark.parametrize("updates", ["least", "plain", "whole"])
+@pytest.mark.parametrize("way", WAYS)
+def test_the_forecast_is_what_a_panel_sends_with_every_sub_picture(way: dict[str, bool], updates: str) -> None:
+    cycle = Cycle(4, **way)
+    forecaster = Forecaster(SSD1306(), COST, updates)
+    packed = forecaster.packed(cycle.pictures(cycle.steps(disc().pixels, 3)))
+    moving = np.logical_or.reduce([one != packed[0] for one in packed])
+    forecast = forecaster.forecast(cycle, moving)
     bus = simulator.I2CBus({0x3C: simulator.SSD1306()}, timer=None)
-    pictures = cycle.pictures(cycle.steps(fb.pixels, 3))
-    sent, messages, busy = [], [], []
-    with Panel(SSD1306(), I2CTransport(bus)) as panel:
-        for turn in (*range(len(pictures)), *range(len(pictures))):
-            before, began = bus.messages, bus.seconds
-            if weighted:
+    with Panel(SSD1306(), I2CTransport(bus), updates=updates) as panel:  # type: ignore[arg-type]
+        driver = panel._driver
+        driver.moving = moving
+        for turn in range(3 * len(packed)):
+            messages, began = bus.messages, bus.seconds
+            if cycle.weighted:
                 panel.contrast(100)
-            report = panel.show(pictures[turn])
-            sent.append(report.wire_bytes + 4 * weighted)
-            messages.append(bus.messages - before)
-            busy.append(bus.seconds - began)
-    forecaster = Forecaster(SSD1306(), COST)
-    forecast = forecaster.forecast(cycle, forecaster.packed(pictures), range(len(pictures)))
-    turns = len(pictures)
-    assert forecast == Forecast(tuple(sent[turns:]), tuple(messages[turns:]))
-    assert forecast.slot(CLOCK) == pytest.approx(max(busy[turns:]), abs=4 / CLOCK)
+            driver.take(packed[turn % len(packed)])
+            wire = driver.show(False, 0.0)[0] + 4 * cycle.weighted
+            if turn >= len(packed):
+                assert forecast == Forecast(wire, bus.messages - messages)
+                assert forecast.seconds(CLOCK) == pytest.approx(bus.seconds - began, abs=4 / CLOCK)
+
+
+@pytest.mark.parametrize("scene", ["clock", "wire cube", "ball"])
+def test_each_byte_comes_at_the_same_time_of_every_slot(scene: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    fb = Framebuffer(128, 64, 2, antialias=Supersample(4))
+    SCENES[scene](fb, 30)
+    choice = chosen(fb.pixels)
+    assert choice is not None
+    layouts = []
+
+    def batch(transport: I2CTransport, plan: Plan) -> int:
+        layouts.append([(kind, bytes(payload) if kind == COMMAND else len(payload)) for kind, payload in plan])
+        return send(transport, plan)
+
+    send = I2CTransport.batch
+    monkeypatch.setattr(I2CTransport, "batch", batch)
+    chip = simulator.SSD1306()
+    pictures = choice.cycle.pictures(choice.cycle.steps(fb.pixels, 3))
+    with Panel(SSD1306(), I2CTransport(simulator.I2CBus({0x3C: chip}, timer=None))) as panel:
+        driver = panel._driver
+        driver.moving = choice.moving
+        for turn in range(7):
+            driver.take(choice.packed[turn % len(pictures)])
+            driver.show(False, 0.0)
+            assert np.array_equal(chip.pixels, pictures[turn % len(pictures)])
+    assert len(layouts) == 7
+    assert all(layout == layouts[1] for layout in layouts[1:])
 
 
 def test_a_picture_without_grey_takes_nothing() -> None:
-    forecaster = Forecaster(SSD1306(), COST)
-    levels = 3 * (disc().pixels > 1).astype(np.uint8)
-    choice = choose(forecaster, levels, 3, 4, CLOCK)
+    choice = chosen(3 * (disc().pixels > 1).astype(np.uint8))
     assert choice is not None
-    assert (sum(choice.forecast.wire_bytes), choice.forecast.rate(CLOCK)) == (0, float("inf"))
+    assert (choice.forecast, choice.seconds, choice.rate) == ((0, 0), (), float("inf"))
 
 
 def test_a_sub_picture_gets_the_time_of_a_scan() -> None:
-    paces = [(command, 64 * line) for command, line in PACES["ssd1306"]]
-    choice = choose(Forecaster(SSD1306(), COST), disc().pixels, 3, 4, CLOCK, paces=paces)
+    choice = chosen(disc().pixels)
     assert choice is not None
-    assert choice.pace == bytes.fromhex("D5 F0")
-    assert choice.slot == pytest.approx(54 * 64 / 510_000)
-    assert choice.rate == pytest.approx(49.19, abs=0.01)
-    slower = choose(Forecaster(SSD1306(), COST), disc().pixels, 3, 4, 330_000, paces=paces)
+    assert choice.pace is not None
+    assert choice.pace.commands == (bytes.fromhex("D9 11"), bytes.fromhex("D5 F0"))
+    assert choice.seconds == pytest.approx((52 * 64 / 510_000,) * 3)
+    assert choice.rate == pytest.approx(51.08, abs=0.01)
+    slower = chosen(disc().pixels, clock=200_000)
     assert slower is not None
-    assert slower.slot in [slot for _, slot in paces]
-    assert slower.forecast.slot(330_000, 0.8) <= slower.slot
+    assert slower.pace in PACES["ssd1306"]
+    assert slower.rate == pytest.approx(1 / (3 * 64 * slower.pace.line_seconds))
+
+
+def test_paces_are_those_of_a_chip_that_takes_them() -> None:
+    chip = simulator.SSD1306()
+    assert list(PACES["ssd1306"]) == sorted(PACES["ssd1306"])
+    for pace in PACES["ssd1306"]:
+        chip.write(b"\x00" + b"".join(pace.commands))
+        assert chip.frame_seconds == pytest.approx(64 * pace.line_seconds)
+    assert chip.violations == []
+
+
+def test_where_the_wire_is_slow_the_heavy_sub_picture_lasts_longer() -> None:
+    fb = Framebuffer(128, 64, 2)
+    SCENES["clock"](fb, 30)
+    choice = chosen(fb.pixels)
+    assert choice is not None
+    assert (choice.cycle.greys, choice.cycle.timed) == (4, True)
+    assert choice.rate >= 49
+    taken = choice.forecast.seconds(CLOCK)
+    assert 2 * taken <= 0.8 * sum(choice.seconds)
+    assert min(choice.seconds) >= taken
+    assert choice.pace is not None
+    assert sum(choice.seconds) == pytest.approx(3 * 64 * choice.pace.line_seconds)
+    assert max(choice.seconds) / 2 >= 64 * choice.pace.line_seconds * (1 - TORN)
+
+
+def test_weighted_sub_pictures_come_more_often() -> None:
+    equal, weighted = chosen(disc().pixels), chosen(disc().pixels, weighted=True)
+    assert equal is not None
+    assert weighted is not None
+    assert weighted.rate > 1.4 * equal.rate
 
 
 def test_as_many_greys_as_the_wire_carries() -> None:
-    forecaster = Forecaster(SSD1306(), COST)
     noise = np.random.default_rng(1).integers(0, 4, (64, 128), dtype=np.uint8)
-    assert choose(forecaster, noise, 3, 4, CLOCK) is None
+    assert chosen(noise) is None
     few = np.where(np.arange(128) < 64, 3, noise).astype(np.uint8)
-    choice = choose(forecaster, few, 3, 16, 1_000_000)
+    choice = chosen(few, greys=16, clock=1_000_000, paces=())
     assert choice is not None
     assert 3 <= choice.cycle.greys < 16
-    assert choice.forecast.rate(1_000_000, 0.8) >= LEAST_RATE
-    choice = choose(forecaster, disc().pixels, 3, 16, CLOCK, weighted=True)
+    assert choice.rate >= LEAST_RATE
+    choice = chosen(disc().pixels, greys=16, weighted=True)
     assert choice is not None
-    assert choice.cycle.greys > 4
+    assert choice.cycle.greys == 8

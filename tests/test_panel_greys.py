@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+import os
+import signal
 import threading
 import time
 import warnings
 from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 import pytest
 
 from paneldraw import Panel, Supersample, open_panel, simulator
-from paneldraw.controllers import SSD1306, SSD1327
+from paneldraw.controllers import SH1106, SSD1306, SSD1327
 from paneldraw.errors import PanelError, TransportError
 from paneldraw.transports import I2CTransport
 from paneldraw.update.greys import Cycle
@@ -19,10 +22,10 @@ from paneldraw.update.greys import Cycle
 ADDRESS = 0x3C
 
 
-def made(greys: int = 4, **settings: float) -> tuple[Panel, simulator.SSD1306, simulator.I2CBus]:
+def made(greys: int = 4, **settings: Any) -> tuple[Panel, simulator.SSD1306, simulator.I2CBus]:
     chip = simulator.SSD1306(history=None)
     bus = simulator.I2CBus({ADDRESS: chip})
-    return Panel(SSD1306(), I2CTransport(bus), greys=greys, **settings), chip, bus  # type: ignore[arg-type]
+    return Panel(SSD1306(), I2CTransport(bus), greys=greys, **settings), chip, bus
 
 
 def picture(panel: Panel, x: int = 64) -> np.ndarray:
@@ -49,9 +52,9 @@ def threads() -> Iterator[threading.Thread]:
     return (thread for thread in threading.enumerate() if thread.name == "paneldraw sender")
 
 
-@pytest.mark.parametrize(("greys", "depth"), [(1, 1), (3, 2), (4, 2), (5, 4), (8, 4), (16, 4)])
+@pytest.mark.parametrize(("greys", "depth"), [(1, 1), (3, 2), (4, 2), (5, 4), (8, 4)])
 def test_the_depth_is_that_of_the_greys(greys: int, depth: int) -> None:
-    with made(greys)[0] as panel:
+    with made(greys, weighted=True)[0] as panel:
         assert (panel.depth, panel.framebuffer().depth) == (depth, depth)
         assert not list(threads())
 
@@ -188,7 +191,11 @@ def test_too_much_for_the_wire_is_shown_in_fewer_greys_and_said_once() -> None:
         ({"greys": 6}, "greys must be one of 3, 4, 5, 8, 16, not 6"),
         ({"greys": 4, "bus_share": 0}, "bus_share must be above 0 and at most 1, not 0"),
         ({"greys": 4, "bus_clock": -1}, "bus_clock must be Hz above 0"),
-        ({"greys": 4, "dim_after": 60}, "must be None with greys"),
+        ({"greys": 8}, "greys must be at most 4 for the ssd1306 on this wire.*weighted=True, not 8"),
+        ({"greys": 16, "weighted": True}, "greys must be at most 8 for the ssd1306 on this wire, .* a cycle, not 16"),
+        ({"greys": 4, "bus_clock": 3000}, "greys must be at most 1 for the ssd1306 on this wire"),
+        ({"greys": 4, "weighted": (0, 1, 2)}, "weighted must be True, .*: light must be 256 figures that rise.* not 3"),
+        ({"greys": 4, "weighted": [1.0] + [0.0] * 255}, "weighted must be True, .*: light must be 256 figures"),
     ],
 )
 def test_settings_that_cannot_be_are_refused(settings: dict[str, int], complaint: str) -> None:
@@ -223,9 +230,203 @@ def test_two_panels_share_a_bus() -> None:
         fb = panel.framebuffer()
         fb.circle(64, 32, 10, fill=True, antialias=Supersample(4))
         panel.show(fb)
-    assert until(lambda: all(panel.stats.frames > 30 for panel in panels))
-    frames = [panel.stats.frames for panel in panels]
+    assert until(lambda: all(panel.stats.sub_pictures > 30 for panel in panels))
+    assert [panel.stats.frames for panel in panels] == [1, 1]
+    frames = [panel.stats.sub_pictures for panel in panels]
     assert max(frames) < 1.5 * min(frames)
     for panel, chip in zip(panels, chips.values(), strict=True):
         panel.close()
         assert chip.violations == []
+
+
+def test_pictures_are_counted_and_their_sub_pictures_beside_them() -> None:
+    panel, chip, _ = made()
+    with panel:
+        panel.show(picture(panel))
+        panel.flush()
+        panel.show(picture(panel, 40))
+        panel.flush()
+        panel.show(picture(panel, 40) // 3 * 3)
+        panel.flush()
+        assert panel.stats.frames == 3
+        assert panel.stats.sub_pictures == len(chip.frames) >= 7
+
+
+def test_weighted_sub_pictures_change_the_contrast_and_the_last_picture_has_it_back() -> None:
+    panel, chip, bus = made(weighted=True)
+    contrasts = set()
+    with panel:
+        panel.contrast(200)
+        levels = picture(panel)
+        panel.show(levels)
+        assert until(lambda: contrasts.add(chip.contrast) or len(chip.frames) > 10)
+        assert contrasts >= {100, 200}
+        panel.contrast(80)
+        contrasts.clear()
+        assert until(lambda: contrasts.add(chip.contrast) or {40, 80} <= contrasts)
+        panel.show(levels // 3 * 3)
+        panel.flush()
+        assert chip.contrast == 80
+        assert panel.stats.wire_bytes + 20 < bus.bytes * 1.2
+    weighted = Cycle(4, weighted=True)
+    wanted = {one.tobytes() for one in (*weighted.pictures(levels), levels == 3)}
+    assert {frame.pixels.tobytes() for frame in list(chip.frames)} <= wanted
+
+
+def test_a_table_of_ones_own_weighs_them() -> None:
+    panel, chip, _ = made(weighted=[(contrast / 255) ** 2 for contrast in range(256)])
+    contrasts = set()
+    with panel:
+        panel.show(picture(panel))
+        assert until(lambda: contrasts.add(chip.contrast) or {180, 255} <= contrasts)
+
+
+def test_a_chip_of_unknown_light_is_not_weighted_without_a_table() -> None:
+    chip = simulator.SH1106()
+    with pytest.raises(ValueError, match="weighted must be False for the sh1106, of which it is not known"):
+        Panel(SH1106(), I2CTransport(simulator.I2CBus({ADDRESS: chip})), greys=4, weighted=True)
+    with Panel(
+        SH1106(), I2CTransport(simulator.I2CBus({ADDRESS: chip})), greys=4, weighted=np.linspace(0, 1, 256)
+    ) as panel:
+        assert panel.depth == 2
+
+
+@pytest.mark.parametrize("query", ["greys=4&bus_share=0.5&bus_clock=1000000", "greys=8&weighted=1", "greys=3&weighted=0"])
+def test_urls_have_the_settings(query: str) -> None:
+    with open_panel(f"sim://ssd1306?{query}") as panel:
+        assert panel.depth == (4 if "8" in query[:7] else 2)
+    with pytest.raises(ValueError, match=r"bus_share must be a number, such as 0.8, not 'half'"):
+        open_panel("sim://ssd1306?greys=4&bus_share=half")
+
+
+def test_a_panel_that_is_dimmed_turned_off_and_woken_keeps_its_greys() -> None:
+    panel, chip, bus = made(dim_after=0.15, off_after=0.4, contrast=200)
+    with panel:
+        levels = picture(panel)
+        panel.show(levels)
+        assert until(lambda: chip.contrast == 0)
+        count = len(chip.frames)
+        assert until(lambda: len(chip.frames) > count + 6)
+        assert until(lambda: not chip.lit)
+        time.sleep(0.05)
+        before = bus.bytes
+        time.sleep(0.1)
+        assert bus.bytes == before
+        panel.show(picture(panel, 40))
+        assert until(lambda: chip.lit and chip.contrast == 200)
+        count = len(chip.frames)
+        assert until(lambda: len(chip.frames) > count + 6)
+        tail = {frame.pixels.tobytes() for frame in list(chip.frames)[-3:]}
+    assert tail == set(sub_pictures(picture(panel, 40)))
+
+
+def test_a_picture_in_greys_moves_as_a_whole() -> None:
+    panel, chip, _ = made(pixel_shift=0.1)
+    with panel:
+        levels = picture(panel)
+        panel.show(levels)
+        moved = np.zeros_like(levels)
+        moved[:, 1:] = levels[:, :-1]
+        wanted = sub_pictures(moved)
+        assert until(lambda: {frame.pixels.tobytes() for frame in list(chip.frames)[-3:]} == set(wanted))
+        frames = [frame.pixels.tobytes() for frame in list(chip.frames)]
+    cycles = [frames[at : at + 3] for at in range(0, len(frames) - 2, 3)]
+    assert sub_pictures(levels) in cycles
+    assert frames.index(wanted[0]) % 3 == 0
+
+
+def test_inverted_greys_are_inverted() -> None:
+    panel, chip, _ = made()
+    with panel:
+        panel.show(picture(panel))
+        panel.invert()
+        assert until(lambda: len(chip.frames) > 12)
+        assert chip.inverted
+        tail = {frame.pixels.tobytes() for frame in list(chip.frames)[-3:]}
+    assert tail == {(1 - np.frombuffer(one, np.uint8)).tobytes() for one in sub_pictures(picture(panel))}
+
+
+def test_a_caller_that_is_interrupted_leaves_a_panel_that_goes_on() -> None:
+    panel, chip, _ = made()
+    levels = picture(panel)
+    with panel:
+        with pytest.raises(KeyboardInterrupt):
+            while True:
+                panel.show(levels)
+                if len(chip.frames) > 6:
+                    signal.raise_signal(signal.SIGINT)
+        count = len(chip.frames)
+        assert until(lambda: len(chip.frames) > count + 6)
+        panel.flush(5)
+        tail = {frame.pixels.tobytes() for frame in list(chip.frames)[-3:]}
+    assert tail == set(sub_pictures(levels))
+    assert not list(threads())
+
+
+def test_an_exception_in_the_block_ends_the_cycle() -> None:
+    panel, chip, bus = made()
+    levels = picture(panel)
+    with pytest.raises(ZeroDivisionError), panel:
+        panel.show(levels)
+        assert until(lambda: len(chip.frames) > 6)
+        raise ZeroDivisionError
+    before = bus.bytes
+    time.sleep(0.05)
+    assert bus.bytes == before
+    assert np.array_equal(chip.pixels, levels >= 2)
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="there is no fork here")
+def test_a_forked_child_sends_nothing_and_the_parent_goes_on() -> None:
+    panel, chip, bus = made()
+    with panel:
+        levels = picture(panel)
+        panel.show(levels)
+        assert until(lambda: len(chip.frames) > 6)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", DeprecationWarning)  # of a fork beside threads
+            child = os.fork()
+        if not child:
+            before = bus.bytes
+            try:
+                panel.show(levels)
+            except PanelError:
+                time.sleep(0.1)
+                os._exit(0 if bus.bytes == before else 2)
+            os._exit(1)
+        assert os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 0
+        count = len(chip.frames)
+        assert until(lambda: len(chip.frames) > count + 6)
+
+
+def test_a_picture_from_a_signal_handler_hangs_nothing() -> None:
+    panel, chip, _ = made()
+    with panel:
+        levels, other = picture(panel), picture(panel, 40)
+        before = signal.signal(signal.SIGALRM, lambda *_: panel.show(other))
+        try:
+            signal.setitimer(signal.ITIMER_REAL, 0.002, 0.002)
+            end = time.monotonic() + 0.3
+            while time.monotonic() < end:
+                panel.show(levels)
+        finally:
+            signal.setitimer(signal.ITIMER_REAL, 0)
+            signal.signal(signal.SIGALRM, before)
+        panel.show(other)
+        panel.flush(5)
+        assert until(lambda: chip.frames[-1].pixels.tobytes() in sub_pictures(other))
+
+
+def test_the_process_may_turn_and_shrink_greys_while_they_cycle() -> None:
+    panel, chip, _ = made()
+    turned = []
+    with panel:
+        for rotate in (0, 180, 0, 180):
+            panel.rotate = rotate
+            levels = picture(panel, 40)
+            panel.show(levels)
+            panel.flush()
+            turned.append(levels if not rotate else np.ascontiguousarray(levels[::-1, ::-1]))
+            time.sleep(0.05)
+        frames = {frame.pixels.tobytes() for frame in list(chip.frames)}
+    assert frames <= {one for levels in turned for one in sub_pictures(levels)} | {(turned[-1] >= 2).astype(np.uint8).tobytes()}

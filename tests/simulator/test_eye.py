@@ -50,8 +50,8 @@ def test_a_row_shows_what_the_ram_holds_when_it_is_scanned() -> None:
     send(bus, filled(0))
     bus.idle(5 * SCAN - bus._now + SCAN * 20.6 / 64)  # in the sixth scan, in the middle of row 20
     send(bus, filled(0xFF))
-    bus.idle(6.01 * SCAN - bus._now)
-    rows = chip.seen(1.015 * SCAN)[:, 0]
+    bus.idle(6.004 * SCAN - bus._now)
+    rows = chip.seen(1.008 * SCAN)[:, 0]
     # The first byte of page 2 comes 0.26 ms later, when row 21 has been scanned.
     assert np.array_equal(rows, np.arange(64) > 21)
 
