@@ -414,9 +414,12 @@ def _on(bus: str, controller: Controller) -> Controller:
 
 
 def _settings(query: dict[str, str], names: dict[str, str]) -> dict[str, Any]:
-    """Settings by name, as numbers where there is an example of one."""
-    said = {name: example for name, example in names.items() if name in query}
-    return {name: _number(query[name], name, example) if example else query[name] for name, example in said.items()}
+    """Settings by name, as numbers of an example's kind where there is one."""
+    said: dict[str, Any] = {name: query[name] for name in names if name in query}
+    for name, text in said.items():
+        if names[name]:
+            said[name] = (_share if "." in names[name] else _number)(text, name, names[name])
+    return said
 
 
 def _switch(query: dict[str, str], name: str) -> bool:
@@ -425,14 +428,15 @@ def _switch(query: dict[str, str], name: str) -> bool:
     return _YES[query[name].lower()]
 
 
-def _number(text: str, name: str, example: str) -> Any:
-    """Read a number of an example's kind."""
-    if "." in example:
-        try:
-            return float(text)
-        except ValueError:
-            raise ValueError(f"{name} must be a number, such as {example}, not {text!r}") from None
+def _number(text: str, name: str, example: str) -> int:
     try:
         return int(text, 0)
     except ValueError:
         raise ValueError(f"{name} must be a whole number, such as {example}, not {text!r}") from None
+
+
+def _share(text: str, name: str, example: str) -> float:
+    try:
+        return float(text)
+    except ValueError:
+        raise ValueError(f"{name} must be a number, such as {example}, not {text!r}") from None

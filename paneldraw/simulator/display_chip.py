@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from typing import Any, ClassVar
 
 import numpy as np
@@ -279,7 +279,7 @@ class DisplayChip(Chip):
         """Return the light that an eye saw of each pixel in the last seconds, on average.
 
         The chip scans its lines in its own time, `frame_seconds` a picture, and each shows what RAM and registers hold
-        in that moment. What a line was lit in that time is counted, at least one scan of it. `remembers` must have been set; what the
+        in that moment. Averaged are all the times that a line was scanned. `remembers` must have been set; what the
         chip held then counts for the time before.
 
         Parameters

@@ -127,7 +127,7 @@ class Timeline:
         moments, light = self._flashes(max(first - 1, 0), last + 1)
         counted = (moments >= self.now - seconds) & (moments < self.now)
         lines = np.swapaxes(light, 1, 2) if self._chip.transposed else light
-        mean = (lines * counted[:, :, None]).sum(axis=0) / counted.sum(axis=0)[:, None]
+        mean: Light = (lines * counted[:, :, None]).sum(axis=0) / counted.sum(axis=0)[:, None]
         return mean.T if self._chip.transposed else mean
 
     def _window(self, seconds: float) -> tuple[int, int]:

@@ -291,17 +291,40 @@ def choose(
     Of two ways that are steady the one is taken in which neighbors do not blink together.
     """
     for fewer in (grey for grey in reversed(GREYS) if grey <= greys):
-        found = []
-        for cycle in _ways(fewer, weighted):
-            packed = forecaster.packed(cycle.pictures(cycle.steps(levels, max_level, gamma)))
-            moving = functools.reduce(np.logical_or, (one != packed[0] for one in packed[1:]))
-            forecast = forecaster.forecast(cycle, moving)
-            seconds, pace = _slots(cycle, forecast.seconds(clock), bus_share, paces, lines)
-            found.append(Choice(cycle, packed, moving, forecast, seconds, pace))
+        found = (
+            laid_out(
+                forecaster,
+                cycle,
+                cycle.steps(levels, max_level, gamma),
+                clock,
+                bus_share=bus_share,
+                paces=paces,
+                lines=lines,
+            )
+            for cycle in _ways(fewer, weighted)
+        )
         best = max(found, key=lambda choice: min(choice.rate, STEADY_RATE))
         if best.rate >= LEAST_RATE:
             return best
     return None
+
+
+def laid_out(
+    forecaster: Forecaster,
+    cycle: Cycle,
+    steps: Levels,
+    clock: float,
+    *,
+    bus_share: float = 0.8,
+    paces: Sequence[Pace] = (),
+    lines: int = 64,
+) -> Choice:
+    """Return a cycle for a picture in its greys, however long it takes; the rest is as in `choose`."""
+    packed = forecaster.packed(cycle.pictures(steps))
+    moving = functools.reduce(np.logical_or, (one != packed[0] for one in packed[1:]))
+    forecast = forecaster.forecast(cycle, moving)
+    seconds, pace = _slots(cycle, forecast.seconds(clock), bus_share, paces, lines)
+    return Choice(cycle, packed, moving, forecast, seconds, pace)
 
 
 def _ways(greys: int, weighted: bool) -> tuple[Cycle, ...]:

@@ -21,11 +21,10 @@ from paneldraw import ConeFilter, Framebuffer, Panel, Supersample, simulator
 from paneldraw.controllers import SSD1306
 from paneldraw.cycling import Cycling
 from paneldraw.demos.scenes import SCENES
-from paneldraw.panel import Stats
 from paneldraw.raster.blue_noise import thresholds
 from paneldraw.transports import I2CTransport
 from paneldraw.transports.base import Cost
-from paneldraw.update.greys import EVEN, PACES, Choice, Forecaster, choose
+from paneldraw.update.greys import EVEN, PACES, Choice, Cycle, Forecaster, choose, laid_out
 
 CLOCK = 400_000
 GREYS = 4
@@ -42,6 +41,12 @@ class Seen(NamedTuple):
     gray_mean: float
     gray_most: float
     flicker: float
+
+    def __str__(self) -> str:
+        return (
+            f"mean {self.mean:4.1f} %, 99 % {self.most:4.1f} %; of grays {self.gray_mean:4.1f} %, "
+            f"{self.gray_most:4.1f} %; flicker {self.flicker:.2f}"
+        )
 
 
 def wheel(fb: Framebuffer) -> None:
@@ -93,8 +98,8 @@ def look(levels: Levels, choice: Choice, seconds: float, drift: float = 1.0) -> 
         full = sum(contrasts) / len(contrasts) / 255
     errors = []
     with Panel(SSD1306(), I2CTransport(bus), contrast=255) as panel:
-        stats = Stats()
-        cycling = Cycling(panel._driver, stats, GREYS, bus_share=0.8, bus_clock=CLOCK, weighted=weighted, updates="least")
+        wire = {"bus_share": 0.8, "bus_clock": CLOCK, "weighted": weighted, "updates": "least"}
+        cycling = Cycling(panel._driver, panel.stats, GREYS, **wire)
         cycling.begin(choice, levels)
         began = now = bus.seconds
         next_look, turn = 0.3, 0
@@ -128,36 +133,39 @@ def run(rounds: int) -> None:
         choices = {kind: chosen(forecaster, levels, weighted=kind == "weighted") for kind in ("equal", "weighted")}
         for kind, choice in choices.items():
             if choice is None:
-                print(f"  {name + ', ' + kind:<28} takes more than the wire carries", flush=True)
+                print(f"  {name + ', ' + kind:<22} takes more than the wire carries", flush=True)
             elif choice.seconds:
                 _report(name, kind, levels, choice, seconds)
-        equal, weighted = choices["equal"], choices["weighted"]
-        if equal and weighted and equal.seconds and equal.cycle.greys == weighted.cycle.greys:
+        weighted = choices["weighted"]
+        if weighted and weighted.seconds and weighted.cycle.greys == GREYS:
+            equal = laid_out(forecaster, Cycle(GREYS), levels, CLOCK, paces=PACES["ssd1306"])
             gain = weighted.rate / equal.rate
             verdict = measure.VERDICTS.judge(f"{name}, weighted", "cycles of equal ones", gain, LEAST_GAIN)
-            print(f"  {name + ', weighted':<28} {gain:.2f}x the cycles of equal ones: {verdict}", flush=True)
+            print(f"  {name + ', weighted':<22} {gain:.2f}x the cycles of {GREYS - 1} equal ones: {verdict}", flush=True)
     _sender(rounds)
 
 
 def _report(name: str, kind: str, levels: Levels, choice: Choice, seconds: float) -> None:
     verdicts = ""
     seen = look(levels, choice, seconds)
-    off = look(levels, choice, seconds, 1.03)
     judge = measure.VERDICTS.judge
     if kind == "equal":
         row = f"{name}, {kind}"
         verdicts = f"mean {judge(row, 'mean error', MOST_MEAN / max(seen.mean, 1e-9), 1.0)}"
         verdicts += f", 99 % {judge(row, '99 % of errors', MOST_99 / max(seen.most, 1e-9), 1.0)}"
         if name == "clock":
-            verdicts += f", rate {judge(row, 'cycles a second', choice.rate / LEAST_RATE, 1.0)}"
-    way = "timed" if choice.cycle.timed else ""
+            rate = choice.rate * (choice.cycle.greys == GREYS)
+            verdicts += f", rate {judge(row, 'cycles a second', rate / LEAST_RATE, 1.0)}"
+    way = "timed" if choice.cycle.timed else kind
     print(
-        f"  {name + ', ' + kind:<28}{choice.cycle.greys} greys {way:<5} {choice.forecast.wire_bytes:4} bytes; {choice.rate:5.1f} cycles/s; "
-        f"error mean {seen.mean:4.1f} %, 99 % {seen.most:4.1f} %; of grays {seen.gray_mean:4.1f} %, "
-        f"{seen.gray_most:4.1f} %; flicker {seen.flicker:.2f}; at 3 % off: of grays {off.gray_mean:4.1f} %, "
-        f"{off.gray_most:4.1f} %, flicker {off.flicker:.2f}   {verdicts}",
+        f"  {name + ', ' + way:<22}{choice.cycle.greys} greys {choice.forecast.wire_bytes:4} bytes; "
+        f"{choice.rate:5.1f} cycles/s; error {seen}",
         flush=True,
     )
+    for drift in (1.03, 1.1):
+        print(f"{'slots off by ':>42}{drift - 1:3.0%}         error {look(levels, choice, seconds, drift)}")
+    if verdicts:
+        print(f"{'':<42}{verdicts}")
 
 
 class Sink:
