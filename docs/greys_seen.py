@@ -45,11 +45,11 @@ def seen(picture: Framebuffer, greys: int) -> NDArray[np.float64]:
         choice, still = cycling.choose(picture.pixels, picture.max_level)
         if choice is None:
             raise ValueError("picture must be one that the wire carries in greys")
-        cycling.begin(choice, picture.pixels, picture.max_level, still)
-        for _ in range(round(0.6 / choice.slot)):
+        cycling.begin(choice, still)
+        for lasts in choice.seconds * round(0.6 * choice.rate):
             busy = bus.seconds
             cycling.turn()
-            bus.idle(choice.slot - min(bus.seconds - busy, choice.slot))
+            bus.idle(max(0.0, lasts - (bus.seconds - busy)))
         return chip.seen(0.4)
 
 

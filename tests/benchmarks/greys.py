@@ -1,7 +1,8 @@
 """Greys on a panel of one bit, on a simulated bus of 400 kHz and by a simulated eye: rate, error of the light, flicker.
 
 Errors are of a pixel's light over 100 ms against its level, in percent of full light: over all pixels, and over those
-that are gray. The last rows are what the sender's thread and a call of `show` take here.
+that are gray; a slot that is off is one of a chip whose oscillator is. The last rows are what the sender's thread takes
+here, and a call of `show` behind the drawing of its picture.
 """
 
 from __future__ import annotations
@@ -141,7 +142,7 @@ def run(rounds: int) -> None:
             equal = laid_out(forecaster, Cycle(GREYS), levels, CLOCK, paces=PACES["ssd1306"])
             gain = weighted.rate / equal.rate
             verdict = measure.VERDICTS.judge(f"{name}, weighted", "cycles of equal ones", gain, LEAST_GAIN)
-            print(f"  {name + ', weighted':<22} {gain:.2f}x the cycles of {GREYS - 1} equal ones: {verdict}", flush=True)
+            print(f"{gain:>40.2f}x the cycles of {GREYS - 1} equal ones: {verdict}", flush=True)
     _sender(rounds)
 
 
@@ -196,7 +197,8 @@ def _sender(rounds: int) -> None:
         verdict = measure.VERDICTS.judge("sender", "at most 5 % of a core", MOST_CPU / share, 1.0)
         print(f"  {'sender, with a bus that takes all':<44}{share:9.1f} % of a core  at most {MOST_CPU:.0f}: {verdict}")
         taken = []
-        for _ in range(20 * min(rounds, 5)):
+        for number in range(20 * min(rounds, 5)):
+            SCENES["clock"](fb, number)
             start = time.perf_counter()
             panel.show(fb)
             taken.append(1e6 * (time.perf_counter() - start))
