@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import signal
 import threading
@@ -12,10 +13,13 @@ from typing import Any
 
 import numpy as np
 import pytest
+from PIL import Image
 
-from paneldraw import Panel, Supersample, open_panel, simulator
+from paneldraw import ConeFilter, Framebuffer, Panel, Supersample, open_panel, simulator
 from paneldraw.controllers import SH1106, SSD1306, SSD1327
+from paneldraw.demos.scenes import SCENES
 from paneldraw.errors import PanelError, TransportError
+from paneldraw.framebuffer.pictures import quantize
 from paneldraw.transports import I2CTransport
 from paneldraw.update.greys import Cycle
 
@@ -81,6 +85,8 @@ def test_two_pictures_never_mix_within_a_cycle() -> None:
             panel.show(levels)
             time.sleep(0.03)
             panel.flush()
+        count = len(chip.frames)
+        assert until(lambda: len(chip.frames) > count + 3)
         frames = [frame.pixels.tobytes() for frame in list(chip.frames)]
     cycles = [sub_pictures(levels) for levels in shown]
     starts = range(0, len(frames) - 2, 3)
@@ -445,3 +451,71 @@ def test_a_picture_may_turn_while_it_cycles() -> None:
         frames = {frame.pixels.tobytes() for frame in list(chip.frames)}
     last = (turned[-1] >= 2).astype(np.uint8).tobytes()
     assert frames <= {last, *(one for levels in turned for one in sub_pictures(levels))}
+
+
+# -- By the simulated eye
+
+
+def shown(levels: np.ndarray, seconds: float = 0.5) -> simulator.SSD1306:
+    """A chip on which a picture has cycled, in the bus's own time."""
+    chip = simulator.SSD1306(history=1)
+    chip.remembers = True
+    bus = simulator.I2CBus({ADDRESS: chip}, timer=None)
+    cycling = Panel(SSD1306(), I2CTransport(bus), greys=4, contrast=255)._cycling
+    assert cycling is not None
+    choice, still = cycling.choose(levels, 3)
+    assert choice is not None
+    cycling.begin(choice, still)
+    for lasts in choice.seconds * int(seconds * choice.rate):
+        before = bus.seconds
+        cycling.turn()
+        bus.idle(max(0.0, lasts - (bus.seconds - before)))
+    return chip
+
+
+@pytest.mark.parametrize("scene", ["graph", "wire cube", "ball"])
+def test_the_light_of_each_pixel_is_its_level(scene: str) -> None:
+    fb = Framebuffer(128, 64, 2, antialias=Supersample(4))
+    SCENES[scene](fb, 30)
+    chip = shown(fb.pixels)
+    gray = (fb.pixels > 0) & (fb.pixels < 3)
+    errors = np.abs(chip.seen(0.1) - fb.pixels / 3)
+    assert gray.sum() > 10
+    assert errors[gray].mean() <= 0.03
+    assert errors.max() <= 0.08
+    assert chip.flicker(0.3)[gray].max() < 0.2
+
+
+def test_the_clock_has_four_greys_and_few_torn_lines() -> None:
+    fb = Framebuffer(128, 64, 2)
+    SCENES["clock"](fb, 30)
+    errors = np.abs(shown(fb.pixels).seen(0.1) - fb.pixels / 3)
+    assert errors.mean() <= 0.03
+    assert np.percentile(errors, 99) <= 0.08
+
+
+def test_a_line_is_as_bright_at_every_angle() -> None:
+    light = []
+    for degrees in range(0, 180, 20):
+        fb = Framebuffer(128, 64, 8, antialias=ConeFilter())
+        x, y = 25 * math.cos(math.radians(degrees)), 25 * math.sin(math.radians(degrees))
+        fb.line(64 - x, 32 - y, 64 + x, 32 + y, width=2)
+        levels = quantize(fb.pixels, 3, "floyd-steinberg")
+        light.append(shown(levels, seconds=0.3).seen(9 / 51).sum())
+    assert np.abs(np.array(light) / np.mean(light) - 1).max() <= 0.03
+
+
+def test_half_covered_is_half_the_light() -> None:
+    covered = np.zeros((64, 128), np.uint8)
+    covered[16:32, 50:66] = 128
+    seen = shown(quantize(covered, 3, "blue-noise")).seen(9 / 51)
+    assert seen[16:32, 50:66].mean() == pytest.approx(128 / 255, abs=0.02)
+    assert seen[:, 70:].max() == 0
+
+
+def test_a_picture_is_as_light_as_its_file_says() -> None:
+    with made()[0] as panel:
+        photograph = Image.fromarray(np.full((64, 128), 186, np.uint8))
+        levels, max_level = panel._levels(photograph, "blue-noise", 2.2)
+    assert max_level == 3
+    assert levels.mean() / 3 == pytest.approx((186 / 255) ** 2.2, abs=0.01)
