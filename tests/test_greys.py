@@ -20,6 +20,7 @@ from paneldraw.update.greys import (
     LEAST_RATE,
     PACES,
     RESPONSES,
+    SHORTEST,
     TORN,
     Choice,
     Cycle,
@@ -218,6 +219,13 @@ def test_weighted_sub_pictures_come_more_often() -> None:
     assert equal is not None
     assert weighted is not None
     assert weighted.rate > 1.4 * equal.rate
+
+
+def test_a_chip_of_which_no_pace_is_known_is_not_flooded() -> None:
+    choice = chosen(disc().pixels, clock=100_000_000, paces=())
+    assert choice is not None
+    assert choice.pace is None
+    assert choice.seconds == (SHORTEST,) * 3
 
 
 def test_as_many_greys_as_the_wire_carries() -> None:

@@ -227,11 +227,29 @@ def test_a_url_has_them_too() -> None:
     assert np.abs(seen - levels / 3).mean() < 0.03
 
 
-def test_two_panels_share_a_bus() -> None:
+@pytest.mark.parametrize(
+    "name", ["ssd1306?size=128x32", "sh1106", "st7920", "ht16k33", "max7219", "pcd8544"]
+)
+def test_other_chips_of_one_bit_have_them_too(name: str) -> None:
+    with open_panel(f"sim://{name}{'&' if '?' in name else '?'}greys=4") as panel:
+        chip = panel.simulated
+        levels = np.zeros((panel.height, panel.width), np.uint8)
+        levels[1, 1:4], levels[3:5, 2] = (1, 2, 3), (2, 1)
+        panel.show(levels)
+        panel.flush()
+        seen = set()
+        wanted = set(sub_pictures(levels))
+        assert until(lambda: seen.add(chip.pixels.tobytes()) or seen >= wanted)
+        assert chip.violations == []
+    assert np.array_equal(chip.pixels > 0, levels >= 2)
+
+
+@pytest.mark.parametrize("bus_share", [0.4, 0.8])
+def test_two_panels_share_a_bus(bus_share: float) -> None:
     chips = {address: simulator.SSD1306(history=None) for address in (0x3C, 0x3D)}
     bus = simulator.I2CBus(chips)
     bus.realtime = True
-    panels = [Panel(SSD1306(), I2CTransport(bus, address), greys=4, bus_share=0.4) for address in chips]
+    panels = [Panel(SSD1306(), I2CTransport(bus, address), greys=4, bus_share=bus_share) for address in chips]
     for panel in panels:
         fb = panel.framebuffer()
         fb.circle(64, 32, 10, fill=True, antialias=Supersample(4))

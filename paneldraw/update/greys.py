@@ -35,6 +35,8 @@ LEAST_RATE: Final = 40.0
 """Cycles a second below which the eye sees them."""
 STEADY_RATE: Final = 50.0
 """Cycles a second from which on more are no better."""
+SHORTEST: Final = 1 / 160
+"""Seconds that a sub-picture lasts at least on a chip of which no pace is known: few scan faster."""
 TORN: Final = 1 / 8
 """By how much of a scan a sub-picture may last too long: so many lines show it once too often."""
 
@@ -344,7 +346,7 @@ def _slots(
     wanted = max(least, min(taken, 1 / (STEADY_RATE * scans)))  # no more is torn than makes it steady
     able = [pace for pace in paces if lines * pace.line_seconds >= least]
     pace = next((pace for pace in reversed(able) if lines * pace.line_seconds <= wanted), able[0] if able else None)
-    scan = lines * pace.line_seconds if pace else wanted
+    scan = lines * pace.line_seconds if pace else max(wanted, 0.0 if paces else SHORTEST)
     seconds = [max(scan * lasts, taken) for lasts in cycle.lasts]
     seconds[cycle.lasts.index(max(cycle.lasts))] -= sum(seconds) - scan * scans
     return tuple(seconds), pace
