@@ -197,9 +197,7 @@ class Panel:
         try:
             self._set_up(record, transport, contrast, updates, refresh)
             wire: dict[str, Any] = {"bus_share": bus_share, "bus_clock": bus_clock, "weighted": weighted}
-            self._cycling = (
-                None if greys == 1 else Cycling(self._driver, self.stats, greys, **wire, updates=updates)
-            )
+            self._cycling = None if greys == 1 else Cycling(self._driver, self.stats, greys, **wire, updates=updates)
             self._care = Care(dim_after, off_after, pixel_shift, time.monotonic())
             self.rotate = rotate
             _check_on_close(on_close)
@@ -648,7 +646,7 @@ class Panel:
         """
         self._driver.wake()
         self._change(self._driver.power)
-        if self._cycles:
+        if self._moving() is not None:
             self._wake_in_time()
 
     def invalidate(self) -> None:
@@ -895,28 +893,27 @@ class Panel:
 
     def _wake_in_time(self) -> None:
         """Have the sender look after the panel when the next sub-picture or care is due."""
-        due = self._care.due() if self._care.needed else None
-        if self._cycles:
-            due = self._cycling.due if due is None else min(due, self._cycling.due)  # type: ignore[union-attr]
+        due, cycling = self._care.due() if self._care.needed else None, self._moving()
+        if cycling is not None:
+            due = cycling.due if due is None else min(due, cycling.due)
         if due is not None or self._care.needed:
             self._own_sender().wake_at(due)
 
-    @property
-    def _cycles(self) -> bool:
-        """Whether there are sub-pictures to send."""
-        return (
-            self._cycling is not None
-            and self._cycling.going
-            and not self._driver.asleep
-            and self._driver.rest != "off"
-        )
+    def _moving(self) -> Cycling | None:
+        """The sub-pictures, if there are some to send now."""
+        cycling, driver = self._cycling, self._driver
+        seen = not driver.asleep and driver.rest != "off"
+        return cycling if cycling is not None and cycling.going and seen else None
 
     def _look_after(self) -> None:
         """Send the next sub-picture, and do what is due when no other picture came for a while."""
         if self._care.needed:
             self._take_care()
-        if self._cycles and time.monotonic() >= self._cycling.due:  # type: ignore[union-attr]
-            self._take_turn(self._cycling)  # type: ignore[arg-type]
+        cycling = self._moving()
+        if cycling is not None and time.monotonic() >= cycling.due:
+            self._take_turn(cycling)
+        elif cycling is not None:
+            self._wake_in_time()
 
     def _take_care(self) -> None:
         with self._lock:

@@ -227,9 +227,7 @@ def test_a_url_has_them_too() -> None:
     assert np.abs(seen - levels / 3).mean() < 0.03
 
 
-@pytest.mark.parametrize(
-    "name", ["ssd1306?size=128x32", "sh1106", "st7920", "ht16k33", "max7219", "pcd8544"]
-)
+@pytest.mark.parametrize("name", ["ssd1306?size=128x32", "sh1106", "st7920", "ht16k33", "max7219", "pcd8544"])
 def test_other_chips_of_one_bit_have_them_too(name: str) -> None:
     with open_panel(f"sim://{name}{'&' if '?' in name else '?'}greys=4") as panel:
         chip = panel.simulated

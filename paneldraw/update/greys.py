@@ -1,10 +1,19 @@
 """Greys on a panel of one bit: a level is how many of the sub-pictures of a cycle a pixel is lit in.
 
-The eye averages what follows fast enough. Sub-pictures are lit as long as each other; each has a weight, which is what
-it adds to the light. Where all weigh the same, a pixel's are those that follow one another from its phase on, so that
-it changes twice a cycle at the most, and the phase is blue noise: neighbors do not blink together. Where they do not,
-the chip's contrast makes one worth several of another, and a level is the sub-pictures that add up to it: fewer
-sub-pictures, but white pixels change their brightness within a cycle, and all pixels of a level do so at once.
+The eye averages what follows fast enough. Each sub-picture has a weight, which is what it adds to the light. There are
+three ways:
+
+- All weigh the same. A pixel's are those that follow one another from its phase on, so that it changes twice a cycle at
+  the most, and the phase is blue noise: neighbors do not blink together.
+- Timed: one lasts as long as several of another, and a level is the sub-pictures that add up to it. They are fewer, for
+  a slower wire, but all pixels of a level blink together.
+- Weighted: the contrast makes one worth several of another. They are fewer and take less time, but white pixels change
+  their brightness within a cycle, and a line that is scanned between the contrast and its data shows the wrong ones
+  together.
+
+Chips scan their lines all the time. A sub-picture is to be scanned as often as it weighs: so it lasts as long as some
+scans, and each byte comes at the same time of its slot, as all that ever move in a cycle are sent in the same order.
+Then it does not matter when the scan comes by, which nobody can tell.
 """
 
 from __future__ import annotations
@@ -30,7 +39,7 @@ Levels = NDArray[np.uint8]
 GREYS: Final = (3, 4, 5, 8, 16)
 """How many greys there can be, black and white among them."""
 _WEIGHTS: Final = {3: (1, 1), 4: (1, 2), 5: (1, 1, 2), 8: (1, 2, 4), 16: (1, 2, 4, 8)}
-"""What sub-pictures add to the light, where the contrast makes it differ."""
+"""What sub-pictures add to the light, where time or contrast makes it differ."""
 LEAST_RATE: Final = 40.0
 """Cycles a second below which the eye sees them."""
 STEADY_RATE: Final = 50.0
