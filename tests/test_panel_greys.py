@@ -544,3 +544,19 @@ def test_a_picture_is_as_light_as_its_file_says() -> None:
         levels, max_level = panel._levels(photograph, "blue-noise", 2.2)
     assert max_level == 3
     assert levels.mean() / 3 == pytest.approx((186 / 255) ** 2.2, abs=0.01)
+
+
+def test_a_picture_that_is_drawn_on_after_its_show_is_shown_as_it_was() -> None:
+    panel, chip, _ = made()
+    with panel:
+        levels = picture(panel)
+        wanted = sub_pictures(levels)
+        for _ in range(20):
+            panel.show(levels)
+            before = levels.copy()
+            levels[...] = np.random.default_rng(1).integers(0, 4, levels.shape, np.uint8)
+            time.sleep(0.002)
+            levels[...] = before
+        panel.flush()
+        frames = {frame.pixels.tobytes() for frame in list(chip.frames)}
+    assert frames <= {*wanted, (before >= 2).astype(np.uint8).tobytes()}
