@@ -792,7 +792,8 @@ class Panel:
         return self._sender
 
     def _hand_over(self, pixels: Levels, max_level: int) -> Report:
-        self.stats.dropped += (self._sender or self._own_sender()).put(pixels, max_level)
+        if (self._sender or self._own_sender()).put(pixels, max_level):
+            self.stats.dropped += 1
         return _QUEUED
 
     def _show(self, pixels: Levels, max_level: int, force: bool = False) -> Report:

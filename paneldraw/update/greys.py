@@ -302,20 +302,15 @@ def choose(
     Of two ways that are steady the one is taken in which neighbors do not blink together.
     """
     for fewer in (grey for grey in reversed(GREYS) if grey <= greys):
-        found = (
-            laid_out(
-                forecaster,
-                cycle,
-                cycle.steps(levels, max_level, gamma),
-                clock,
-                bus_share=bus_share,
-                paces=paces,
-                lines=lines,
-            )
-            for cycle in _ways(fewer, weighted)
-        )
-        best = max(found, key=lambda choice: min(choice.rate, STEADY_RATE))
-        if best.rate >= LEAST_RATE:
+        best: Choice | None = None
+        for cycle in _ways(fewer, weighted):
+            steps = cycle.steps(levels, max_level, gamma)
+            choice = laid_out(forecaster, cycle, steps, clock, bus_share=bus_share, paces=paces, lines=lines)
+            if best is None or choice.rate > best.rate:
+                best = choice
+            if best.rate >= STEADY_RATE:
+                break
+        if best is not None and best.rate >= LEAST_RATE:
             return best
     return None
 
