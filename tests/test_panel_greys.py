@@ -275,21 +275,19 @@ def test_pictures_are_counted_and_their_sub_pictures_beside_them() -> None:
 
 
 def test_weighted_sub_pictures_change_the_contrast_and_the_last_picture_has_it_back() -> None:
-    panel, chip, bus = made(weighted=True)
+    panel, chip, _ = made(weighted=True)
     contrasts = set()
     with panel:
         panel.contrast(200)
         levels = picture(panel)
         panel.show(levels)
-        assert until(lambda: contrasts.add(chip.contrast) or len(chip.frames) > 10)
-        assert contrasts >= {100, 200}
+        assert until(lambda: contrasts.add(chip.contrast) or {100, 200} <= contrasts)
         panel.contrast(80)
         contrasts.clear()
         assert until(lambda: contrasts.add(chip.contrast) or {40, 80} <= contrasts)
         panel.show(levels // 3 * 3)
         panel.flush()
         assert chip.contrast == 80
-        assert panel.stats.wire_bytes + 20 < bus.bytes * 1.2
     weighted = Cycle(4, weighted=True)
     wanted = {one.tobytes() for one in (*weighted.pictures(levels), levels == 3)}
     assert {frame.pixels.tobytes() for frame in list(chip.frames)} <= wanted
