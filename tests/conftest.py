@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import gc
 import importlib
 import os
 import shutil
 import signal
 import sys
+from collections import defaultdict
 from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
@@ -37,6 +39,47 @@ settings.load_profile("quick")  # unless --hypothesis-profile names another
 
 # Elsewhere a copy of a process may find its libraries in disorder.
 PROCESSES = [forked, pytest.param(started, marks=pytest.mark.thorough)] if sys.platform == "linux" else [started]
+
+#: Of a test with more cases than these, at one speed, the quick run has each value of each parameter, not all products.
+WHOLE = 12
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_collection():
+    """Look for garbage when all is there, and never again among what stays: it saves a quarter of the collection."""
+    gc.disable()
+    try:
+        return (yield)
+    finally:
+        gc.collect()
+        gc.freeze()
+        gc.enable()
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(items):
+    """Leave to the thorough run the cases of large matrices that show no value which a case before them has not."""
+    matrices = defaultdict(list)
+    for item in items:
+        if hasattr(item, "callspec") and not item.get_closest_marker("thorough"):
+            matrices[item.parent, item.originalname, item.callspec.params.get("package")].append(item)
+    for cases in matrices.values():
+        seen = set()
+        for case in cases if len(cases) > WHOLE else ():
+            values = set(_axes(case))
+            if values <= seen:
+                case.add_marker("thorough")
+                case.add_marker("product")
+            seen |= values
+
+
+def _axes(item):
+    """The value that a case has of each ``parametrize``, of one with several names the row, and of each fixture."""
+    values = {name: id(value) for name, value in item.callspec.params.items()}
+    for mark in item.iter_markers("parametrize"):
+        names = mark.args[0].replace(",", " ").split() if isinstance(mark.args[0], str) else mark.args[0]
+        yield (*names, *(values.pop(name) for name in names))
+    yield from values.items()
 
 
 @pytest.fixture(params=PROCESSES, ids=lambda process: process.__name__)
@@ -86,11 +129,11 @@ def own_time(monkeypatch):
 
 
 @pytest.fixture(scope="session")
-def binaries(tmp_path_factory):
+def binaries():
     """The rig that emulates an ATmega328P, and the firmware for it; skips where they cannot be built."""
     from emulated import built
 
-    return built(tmp_path_factory.mktemp("atmega328p"))
+    return built()
 
 
 @pytest.fixture(scope="session")

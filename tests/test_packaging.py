@@ -214,6 +214,7 @@ fb.lien(0, 0, 7, 7)
 
 @pytest.mark.thorough
 def test_a_users_type_checker_knows_the_types(wheel, tmp_path):
+    pytest.importorskip("mypy")
     wheel.extractall(tmp_path / "installed")
     (tmp_path / "user.py").write_text(USER, encoding="utf-8")
     command = [sys.executable, "-m", "mypy", "--strict", "--config-file=", "--follow-imports=silent", "user.py"]

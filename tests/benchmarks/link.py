@@ -8,7 +8,6 @@ from __future__ import annotations
 import contextlib
 import os
 import sys
-import tempfile
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -49,43 +48,41 @@ def run(rounds: int) -> None:
     from emulated import HZ, Board, built
     from simulated import Noise
 
-    with tempfile.TemporaryDirectory() as folder:
+    def maker(**settings: str) -> MakeBoard:
+        binaries = built(**settings)
 
-        def maker(**settings: str) -> MakeBoard:
-            binaries = built(Path(folder) / settings.get("CHIP", "usual"), **settings)
+        def board() -> Board:
+            fresh = Board(*binaries)
+            fresh.run(HZ // 20)
+            return fresh
 
-            def board() -> Board:
-                fresh = Board(*binaries)
-                fresh.run(HZ // 20)
-                return fresh
+        return board
 
-            return board
-
-        try:
-            board = maker()
-        except pytest.skip.Exception as missing:
-            print(f"  without the emulated chip: {missing}")
-            return
-        for baudrate, wanted in ((115_200, 10.5), (500_000, 33.0), (1_000_000, None)):
-            whole_pictures(board, baudrate, wanted)
-        for baudrate in (115_200, 500_000):
-            pixels(board, baudrate, PIXEL_BYTES)
-        scenes(board)
-        kinds = {
-            "flipped": Noise(flip=EACH),
-            "dropped": Noise(drop=EACH),
-            "inserted": Noise(insert=EACH),
-            "together": Noise(EACH, EACH, EACH),
-        }
-        for baudrate in (115_200, 500_000):
-            for name, noise in kinds.items():
-                noisy(board, baudrate, name, noise)
-        for chip, wanted_bytes in SPI_PIXEL_BYTES.items():
-            board = maker(BUS="spi", CHIP=chip)
-            print(f"  {chip} on the board's SPI:")
-            for baudrate in (115_200, 500_000, 1_000_000):
-                whole_pictures(board, baudrate, None)
-            pixels(board, 500_000, wanted_bytes)
+    try:
+        board = maker()
+    except pytest.skip.Exception as missing:
+        print(f"  without the emulated chip: {missing}")
+        return
+    for baudrate, wanted in ((115_200, 10.5), (500_000, 33.0), (1_000_000, None)):
+        whole_pictures(board, baudrate, wanted)
+    for baudrate in (115_200, 500_000):
+        pixels(board, baudrate, PIXEL_BYTES)
+    scenes(board)
+    kinds = {
+        "flipped": Noise(flip=EACH),
+        "dropped": Noise(drop=EACH),
+        "inserted": Noise(insert=EACH),
+        "together": Noise(EACH, EACH, EACH),
+    }
+    for baudrate in (115_200, 500_000):
+        for name, noise in kinds.items():
+            noisy(board, baudrate, name, noise)
+    for chip, wanted_bytes in SPI_PIXEL_BYTES.items():
+        board = maker(BUS="spi", CHIP=chip)
+        print(f"  {chip} on the board's SPI:")
+        for baudrate in (115_200, 500_000, 1_000_000):
+            whole_pictures(board, baudrate, None)
+        pixels(board, 500_000, wanted_bytes)
 
 
 class Screen:

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import atexit
 import ctypes
+import functools
 import random
 import shutil
 import subprocess
+import tempfile
 from collections.abc import Callable
 from itertools import groupby
 from pathlib import Path
@@ -19,23 +22,35 @@ HZ = 16_000_000
 RIG = Path(__file__).parent / "rig" / "rig.c"
 
 
-def built(build: Path, options: str = "", **settings: str) -> tuple[Path, Path]:
+def folder() -> Path:
+    """Return a new folder that lasts as long as this process."""
+    name = tempfile.mkdtemp(prefix="atmega328p-")
+    atexit.register(shutil.rmtree, name, ignore_errors=True)
+    return Path(name)
+
+
+@functools.cache
+def built(options: str = "", **settings: str) -> tuple[Path, Path]:
     """Return the rig's library and the firmware, or skip where something to build them with is missing.
 
-    Settings are the Makefile's: ``BUS``, ``CHIP``, ``SIZE``.
+    Settings are the Makefile's: ``BUS``, ``CHIP``, ``SIZE``. What was built for one test, the others get too.
     """
     if not Path("/usr/include/simavr").exists():
         pytest.skip("libsimavr-dev is not installed")
     if not shutil.which("cc"):
         pytest.skip("cc is not installed")
-    elf = made("atmega328p", "atmega328p/paneldraw.elf", build, "avr-gcc", options=options, **settings)
-    library = build / "rig.so"
+    return rig(), made("atmega328p", "atmega328p/paneldraw.elf", folder(), "avr-gcc", options=options, **settings)
+
+
+@functools.cache
+def rig() -> Path:
+    library = folder() / "rig.so"
     flags = ["-O2", "-Wall", "-Wextra", "-Werror", "-shared", "-fPIC"]
     done = subprocess.run(
         ["cc", *flags, str(RIG), "-o", str(library), "-lsimavr", "-lelf"], capture_output=True, text=True, check=False
     )
     assert done.returncode == 0, done.stderr
-    return library, elf
+    return library
 
 
 class Board:

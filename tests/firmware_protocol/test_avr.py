@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import functools
 import random
 import re
 import shutil
@@ -119,13 +118,12 @@ def conversations() -> dict[str, list[str]]:
 
 
 @pytest.fixture(scope="module")
-def boards(binaries: tuple[Path, Path], tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], tuple[Path, Path]]:
+def boards(binaries: tuple[Path, Path]) -> Callable[[str], tuple[Path, Path]]:
     """The firmware as built for one kind of device or another."""
     options = {"control-each": "-DPD_CONTROL_EACH=1", "no-repeats": "-DPD_REPEATS=0"}
 
-    @functools.cache
     def board(kind: str) -> tuple[Path, Path]:
-        return built(tmp_path_factory.mktemp(kind), options[kind]) if kind in options else binaries
+        return built(options[kind]) if kind in options else binaries
 
     return board
 
@@ -143,7 +141,13 @@ def happens(board: Board, what: str) -> None:
         board.panel(absent=name == "gone")
 
 
-@pytest.mark.parametrize("name", conversations())
+#: They take seconds of the board's time; of some kind there is another that does not, and the core has them all.
+LONG = {"numbers wrap", "no repeats", "another rate and back", "a host that came back at the first rate"}
+
+
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=pytest.mark.thorough) if name in LONG else name for name in conversations()]
+)
 def test_the_golden_conversations(boards: Callable[[str], tuple[Path, Path]], name: str) -> None:
     lines = conversations()[name]
     board = Board(*boards(lines[0][2:]))
@@ -203,9 +207,10 @@ def test_a_restart_in_the_middle(board: Board, trouble: Callable[[Board], None],
     assert link.stats.sessions == 2
 
 
-def test_each_start_has_another_number_and_a_loop_of_resets_spares_the_eeprom(board: Board) -> None:
+@pytest.mark.parametrize("resets", [20, pytest.param(260, marks=pytest.mark.thorough)])
+def test_each_start_has_another_number_and_a_loop_of_resets_spares_the_eeprom(board: Board, resets: int) -> None:
     held: list[tuple[int, bytes]] = []
-    for trouble in ["first", *["reset"] * 3, "hang", "power", *["reset"] * 260, "power", "power", "hang", "reset"]:
+    for trouble in ["first", *["reset"] * 3, "hang", "power", *["reset"] * resets, "power", "power", "hang", "reset"]:
         if trouble == "hang":
             board.hang()
             board.run(board.cycle + HZ)
@@ -303,8 +308,8 @@ def test_a_host_that_leaves_at_a_fast_rate_finds_the_board_again(board: Board) -
 
 
 @pytest.mark.parametrize(("oldest", "newest", "advice"), [(2, 3, "update paneldraw"), (1, 9, "")])
-def test_firmware_that_is_newer(tmp_path: Path, oldest: int, newest: int, advice: str) -> None:
-    board = Board(*built(tmp_path, f"-DPD_OLDEST_VERSION={oldest} -DPD_NEWEST_VERSION={newest}"))
+def test_firmware_that_is_newer(oldest: int, newest: int, advice: str) -> None:
+    board = Board(*built(f"-DPD_OLDEST_VERSION={oldest} -DPD_NEWEST_VERSION={newest}"))
     board.run(HZ // 20)
     if advice:
         with pytest.raises(VersionError, match=advice):
@@ -343,14 +348,14 @@ def test_a_line_at_another_rate_than_the_host_believes(board: Board, factor: flo
     assert port.panel.ram == picture
 
 
-def test_the_builds_of_the_readme(tmp_path: Path) -> None:
+def test_the_builds_of_the_readme() -> None:
     text = (FIRMWARE / "README.md").read_text()
     (options,) = re.findall(r"`OPTIONS=(\S+)`", text)
     builds = re.findall(r"^    make -C firmware_protocol/firmware atmega328p(.*)", text, re.MULTILINE)
     made = []
-    for number, build in enumerate(builds):
+    for build in builds:
         settings = dict(setting.split("=") for setting in build.split())
-        board = Board(*built(tmp_path / str(number), options, **settings))
+        board = Board(*built(options, **settings))
         board.run(HZ // 20)
         said = joined(board)[1].device
         made.append((said.bus.name, said.address, said.controller, said.width, said.height))

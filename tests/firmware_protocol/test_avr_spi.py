@@ -20,8 +20,8 @@ SIZES = {"ssd1322": (256, 64), "sh1106": (128, 64), "pcd8544": (84, 48), "max721
 
 
 @pytest.fixture(scope="module")
-def binaries(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
-    return built(tmp_path_factory.mktemp("spi"), BUS="spi", CHIP="ssd1322")
+def binaries() -> tuple[Path, Path]:
+    return built(BUS="spi", CHIP="ssd1322")
 
 
 @pytest.fixture
@@ -53,8 +53,8 @@ def flat(selects: list[Select], kind: bool) -> bytes:
 
 
 @pytest.mark.parametrize("chip", SIZES)
-def test_it_says_which_panel_it_drives_within_the_limits_of_an_uno(tmp_path: Path, chip: str) -> None:
-    binaries = built(tmp_path, BUS="spi", CHIP=chip)
+def test_it_says_which_panel_it_drives_within_the_limits_of_an_uno(chip: str) -> None:
+    binaries = built(BUS="spi", CHIP=chip)
     board = Board(*binaries)
     board.run(HZ // 20)
     said = joined(board)[1].device
@@ -69,8 +69,8 @@ def test_it_says_which_panel_it_drives_within_the_limits_of_an_uno(tmp_path: Pat
         assert data + bss < 1200
 
 
-def test_a_chain_of_another_length(tmp_path: Path) -> None:
-    board = Board(*built(tmp_path, BUS="spi", CHIP="max7219", SIZE="64x8"))
+def test_a_chain_of_another_length() -> None:
+    board = Board(*built(BUS="spi", CHIP="max7219", SIZE="64x8"))
     board.run(HZ // 20)
     said = joined(board)[1].device
     assert (said.controller, said.width, said.height) == ("max7219", 64, 8)

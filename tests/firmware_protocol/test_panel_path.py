@@ -164,9 +164,9 @@ class Wire:
 
 
 @pytest.fixture(scope="module", params=SPI_PIXEL)
-def spi_binaries(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
+def spi_binaries(request: pytest.FixtureRequest) -> tuple[Path, Path]:
     size = {"SIZE": "64x8"} if request.param == "max7219" else {}
-    return built(tmp_path_factory.mktemp(request.param), BUS="spi", CHIP=request.param, **size)
+    return built(BUS="spi", CHIP=request.param, **size)
 
 
 @pytest.fixture
