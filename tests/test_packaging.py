@@ -50,42 +50,65 @@ def versioned():
 
 
 @pytest.fixture(scope="module")
-def without_compiler(tmp_path_factory):
-    """A fresh copy of the project in which the README's first line was run where no C compiler works.
-
-    Without compiling, that takes a quarter of a minute, and serves all tests here.
-    """
+def clone(tmp_path_factory):
+    """A fresh copy of the project."""
     folder = tmp_path_factory.mktemp("clone")
     for name in versioned():
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
         shutil.copyfile(PROJECT / name, folder / name)
+    return folder
+
+
+@pytest.fixture(scope="module")
+def without_compiler(clone):
+    """A fresh copy of the project in which the README's first line was run where no C compiler works.
+
+    Without compiling, that takes a quarter of a minute, and serves all tests here.
+    """
     environment = STRANGERS | {"CC": "/bin/false"}
 
     def run(command):
         return subprocess.run(
             ["bash", "-c", command],
-            cwd=folder,
+            cwd=clone,
             env=environment,
             stdin=subprocess.DEVNULL,
             capture_output=True,
             text=True,
         )
 
-    run.folder = folder
+    run.folder = clone
     run.first = run(make_pictures.blocks("sh", "Set-up")[0])
     assert run.first.returncode == 0, run.first.stdout + run.first.stderr
     return run
 
 
 @pytest.fixture(scope="module")
-def wheel(without_compiler):
-    """The wheel that is built there, beside what compiling left behind."""
+def pure_wheel(clone):
+    """The wheel for all machines, which needs no compiler and seconds."""
+    command = [sys.executable, "-m", "pip", "wheel", "--no-deps", "--wheel-dir", "pure", "."]
+    environment = STRANGERS | {"PANELDRAW_PURE": "1"}
+    done = subprocess.run(command, cwd=clone, env=environment, capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout + done.stderr
+    (built,) = (clone / "pure").iterdir()
+    with zipfile.ZipFile(built) as file:
+        yield file
+
+
+@pytest.fixture(scope="module")
+def plain_wheel(without_compiler):
+    """The wheel that is built where no compiler works, beside what compiling left behind."""
     folder = without_compiler.folder
     assert list(folder.glob("paneldraw/**/*.c"))
     done = without_compiler(".venv/bin/pip wheel --no-deps --wheel-dir dist .")
     assert done.returncode == 0, done.stdout + done.stderr
     with zipfile.ZipFile(next((folder / "dist").glob("paneldraw-*.whl"))) as file:
         yield file
+
+
+@pytest.fixture(params=["pure_wheel", pytest.param("plain_wheel", marks=pytest.mark.thorough)])
+def wheel(request):
+    return request.getfixturevalue(request.param)
 
 
 @pytest.fixture(scope="module")
@@ -107,6 +130,7 @@ def test_the_first_line_runs_the_demo(without_compiler):
     assert picture.group().count("█") > 20
 
 
+@pytest.mark.thorough
 def test_without_a_compiler_it_runs_interpreted_and_says_so(without_compiler):
     assert not list(without_compiler.folder.glob("paneldraw/**/*.so"))
     info = without_compiler(".venv/bin/paneldraw info")
@@ -114,8 +138,21 @@ def test_without_a_compiler_it_runs_interpreted_and_says_so(without_compiler):
     assert re.search(r"^drawing: +interpreted.* run: \S+ -m pip install .*--editable file://", info.stdout, re.M)
 
 
-def test_compiled_and_interpreted_installs_draw_the_same(without_compiler):
-    theirs, picture = json.loads(without_compiler(f".venv/bin/python -c '{DRAW}'").stdout)
+@pytest.mark.thorough
+def test_an_install_without_a_compiler_draws_the_same(without_compiler):
+    assert_drawn_as_here(without_compiler(f".venv/bin/python -c '{DRAW}'"))
+
+
+def test_the_wheel_for_all_machines_draws_the_same(pure_wheel, tmp_path):
+    pure_wheel.extractall(tmp_path)
+    environment = os.environ | {"PYTHONPATH": str(tmp_path)}
+    assert_drawn_as_here(
+        subprocess.run([sys.executable, "-c", DRAW], cwd=tmp_path, env=environment, capture_output=True, text=True)
+    )
+
+
+def assert_drawn_as_here(interpreted):
+    theirs, picture = json.loads(interpreted.stdout)
     ours, expected = json.loads(subprocess.run([sys.executable, "-c", DRAW], capture_output=True, check=True).stdout)
     assert (theirs, ours) == (False, True)
     assert np.any(expected)
@@ -179,14 +216,14 @@ def test_the_readme_of_an_index_leads_to_the_files_of_its_version(wheel):
         assert address == target if target.startswith("https:") else f"{home}/{kind}/v{VERSION}/{target}" == address
 
 
-def test_the_wheel_for_all_machines_has_nothing_compiled(without_compiler, wheel):
-    done = without_compiler("PANELDRAW_PURE=1 .venv/bin/pip wheel --no-deps --wheel-dir pure .")
-    assert done.returncode == 0, done.stdout + done.stderr
-    (built,) = (without_compiler.folder / "pure").iterdir()
-    assert built.name == f"paneldraw-{VERSION}-py3-none-any.whl"
-    with zipfile.ZipFile(built) as file:
-        assert sorted(file.namelist()) == sorted(wheel.namelist())
-        assert b"Root-Is-Purelib: true" in file.read(f"{INFO}/WHEEL")
+def test_the_wheel_for_all_machines_has_nothing_compiled(pure_wheel):
+    assert Path(pure_wheel.filename).name == f"paneldraw-{VERSION}-py3-none-any.whl"
+    assert b"Root-Is-Purelib: true" in pure_wheel.read(f"{INFO}/WHEEL")
+
+
+@pytest.mark.thorough
+def test_all_wheels_hold_the_same(pure_wheel, plain_wheel):
+    assert sorted(pure_wheel.namelist()) == sorted(plain_wheel.namelist())
 
 
 @pytest.mark.thorough

@@ -249,7 +249,8 @@ def compare(work: Work, expected: str) -> bool:
     print(f"{name}: {len(found.splitlines())} groups of shapes, {lap()}", flush=True)
     if groups:
         report(work.machine, groups, len(expected.splitlines()))
-    chosen = ["-p", "no:cacheprovider", "-m", "(not thorough or product) and not hypothesis", "-k", "not interpreted", "-rf"]
+    marked = "(not thorough or product) and not hypothesis"
+    chosen = ["-p", "no:cacheprovider", "-m", marked, "-k", "not interpreted", "-rf"]
     try:
         tests = work.emulate(tree, "-m", "pytest", *chosen, *TESTS)
     except CommandError as failure:
