@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from searching import quick
 
 FOLDER = Path(__file__).parent / "benchmarks"
 #: `link` takes a minute whatever its rounds; what it runs, the tests of the link run too.
@@ -26,10 +27,8 @@ def run(*arguments):
     return subprocess.run(command, capture_output=True, text=True)
 
 
-# Each of its sessions is a process of its own.
-@pytest.mark.parametrize(
-    "group", [pytest.param(group, marks=pytest.mark.thorough) if group == "plugin" else group for group in GROUPS]
-)
+# Each session of the one is a process of its own; the other looks at light for as long as an eye does.
+@pytest.mark.parametrize("group", quick(GROUPS, {*GROUPS} - {"plugin", "greys"}))
 def test_a_group_runs(group):
     done = run("--rounds", "1", "--once", group)
     assert done.returncode == 0, done.stderr

@@ -10,8 +10,10 @@ import pkgutil
 import re
 
 import pytest
+from searching import at_both_speeds
 
 import paneldraw
+from paneldraw import _compiled
 from paneldraw.compat.luma.oled import device as compat_oled
 
 #: Public objects that may do without an example.
@@ -98,7 +100,15 @@ def examples(path):
 WITH_EXAMPLE = sorted(path for path in documented() if examples(path).examples)
 
 
-@pytest.mark.parametrize("path", WITH_EXAMPLE)
+#: Where the examples are interpreted each time: in the modules that are usually compiled.
+COMPILED = tuple(f"{name}." for name in _compiled.MODULES)
+
+
+@pytest.mark.parametrize(
+    ("package", "path"),
+    at_both_speeds(WITH_EXAMPLE, [path for path in WITH_EXAMPLE if path.startswith(COMPILED)]),
+    indirect=["package"],
+)
 def test_examples_run_as_printed(package, path, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     test = examples(path)

@@ -127,7 +127,7 @@ def test_between_the_cheapest_there_is_and_one_bounding_window(walk):
         assert cheapest(small, cost, wanted, state) <= panel.cost() <= bounding(small, cost, wanted, state)
 
 
-@pytest.mark.parametrize(("window", "size"), [(PAIRS, 11), (FOURS, 21)])
+@pytest.mark.parametrize(("window", "size"), [(PAIRS, 11), pytest.param(FOURS, 21, marks=pytest.mark.thorough)])
 def test_one_cell_where_nothing_holds_is_the_cheapest_there_is(window, size):
     """Two windows' commands and a cell: 15 c c 75 r r, its data; with D/C high in between, 15 | c c | 75 | r r | 5C."""
     small = controller(9, 9, window)

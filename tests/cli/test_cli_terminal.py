@@ -117,9 +117,9 @@ def test_a_demo_fits_a_usual_terminal(terminal):
     ("press", "code"),
     [
         (lambda window: os.write(window.master, b"\x03"), 130),
-        (lambda window: os.kill(window.pid, signal.SIGINT), 130),
+        pytest.param(lambda window: os.kill(window.pid, signal.SIGINT), 130, marks=pytest.mark.thorough),
         (lambda window: os.kill(window.pid, signal.SIGTERM), 143),
-        (lambda window: os.kill(window.pid, signal.SIGHUP), 129),
+        pytest.param(lambda window: os.kill(window.pid, signal.SIGHUP), 129, marks=pytest.mark.thorough),
     ],
     ids=["ctrl-c", "SIGINT", "SIGTERM", "SIGHUP"],
 )

@@ -46,8 +46,15 @@ def drawn(chip):
     return simulator.text(chip.pixels).split("\n")
 
 
-@pytest.mark.parametrize("dashes", [(), ("--",)])
-@pytest.mark.parametrize("url", ["", "sim://ssd1306"])
+@pytest.mark.parametrize(
+    ("url", "dashes"),
+    [
+        ("", ()),
+        ("sim://ssd1306", ("--",)),
+        pytest.param("", ("--",), marks=pytest.mark.thorough),
+        pytest.param("sim://ssd1306", (), marks=pytest.mark.thorough),
+    ],
+)
 def test_a_program_is_seen_in_the_terminal_and_its_exit_code_is_its_own(script, url, dashes):
     done = started("view", "--terminal", *dashes, sys.executable, script(url, 7))
     assert done.returncode == 7, done.stderr

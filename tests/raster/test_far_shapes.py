@@ -12,7 +12,7 @@ import round_definitions
 from definitions import REACH
 from hypothesis import given
 from hypothesis import strategies as st
-from searching import examples
+from searching import at_both_speeds, examples
 
 WIDTH, HEIGHT = 60, 40
 IN, OUT = REACH - 40, REACH + 40  # radii that differ by 0.004 pixels in how far their circles bend in this picture
@@ -43,6 +43,8 @@ SHAPES = {
 }
 FILLED = [name for name in SHAPES if SHAPES[name](9)[0] not in ("arc", "line", "polyline")]
 DASHED = [name for name in SHAPES if SHAPES[name](9)[0] not in ("ellipse", "sector", "round_rect")]
+#: One of each call.
+FIRST = list({SHAPES[name](9)[0]: name for name in reversed(SHAPES)}.values())
 
 
 def drawn(package, name, r, depth=8, **options):
@@ -70,13 +72,15 @@ def assert_alike(package, name, **options):
     assert within.any()
 
 
-@pytest.mark.parametrize("name", SHAPES)
+@pytest.mark.parametrize(("package", "name"), at_both_speeds(SHAPES, FIRST), indirect=["package"])
 def test_outlines(package, name):
     for options in ways(package):
         assert_alike(package, name, **options)
 
 
-@pytest.mark.parametrize("name", FILLED)
+@pytest.mark.parametrize(
+    ("package", "name"), at_both_speeds(FILLED, [name for name in FIRST if name in FILLED]), indirect=["package"]
+)
 def test_fillings(package, name):
     for options in ways(package):
         assert_alike(package, name, fill=True, **options)

@@ -139,10 +139,14 @@ def test_threads_and_processes_that_share_a_descriptor(desk: Desk, bus_user: str
 
 
 @pytest.mark.parametrize(
-    ("machine", "emulator"),
-    [("arm-linux-gnueabihf", "qemu-arm-static"), ("aarch64-linux-gnu", "qemu-aarch64-static")],
+    ("machine", "emulator", "way"),
+    [
+        ("arm-linux-gnueabihf", "qemu-arm-static", "forks"),
+        pytest.param("arm-linux-gnueabihf", "qemu-arm-static", "lines", marks=pytest.mark.thorough),
+        pytest.param("aarch64-linux-gnu", "qemu-aarch64-static", "forks", marks=pytest.mark.thorough),
+        pytest.param("aarch64-linux-gnu", "qemu-aarch64-static", "lines", marks=pytest.mark.thorough),
+    ],
 )
-@pytest.mark.parametrize("way", ["forks", "lines"])
 def test_on_machines_of_32_and_64_bits(desk: Desk, tmp_path: Path, machine: str, emulator: str, way: str) -> None:
     compiler = f"{machine}-gcc"
     if shutil.which(compiler) is None or shutil.which(emulator) is None:

@@ -63,7 +63,7 @@ def test_samples_of_every_size(tmp_path: Path, unitsize: int) -> None:
     assert simulator.replay(tmp_path / "i2c.sr", simulator.SSD1306()).events == 3
 
 
-@pytest.mark.parametrize("seed", [1, 2])
+@pytest.mark.parametrize("seed", [1, pytest.param(2, marks=pytest.mark.thorough)])
 def test_the_edges_of_real_messages_are_those_messages(seed: int) -> None:
     events = captured("ssd1306-i2c", 100, 400)
     assert list(_decoded(waves.i2c(events, seed), ["SCL", "SDA"])) == [event._replace(seconds=0.0) for event in events]

@@ -223,7 +223,7 @@ def left(pytester):
     [
         (SENDER, "thread paneldraw"),
         (RIG, "/dev/ptmx"),
-        ("kept.append(socket.socketpair())", "socket:"),
+        pytest.param("kept.append(socket.socketpair())", "socket:", marks=pytest.mark.thorough),
         ("s = socket.create_server(('127.0.0.1', 0)); kept.append(s)", "socket:"),
         ("tempfile.mkdtemp(prefix=f'paneldraw-{os.getpid()}-', dir=os.environ.get('TMPDIR'))", "paneldraw-"),
     ],
