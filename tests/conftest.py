@@ -8,7 +8,6 @@ import os
 import shutil
 import signal
 import sys
-from collections import defaultdict
 from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
@@ -17,6 +16,7 @@ from types import SimpleNamespace
 import pytest
 from hypothesis import HealthCheck, settings
 from running import forked, started
+from searching import leave_products
 
 import paneldraw
 
@@ -40,46 +40,28 @@ settings.load_profile("quick")  # unless --hypothesis-profile names another
 # Elsewhere a copy of a process may find its libraries in disorder.
 PROCESSES = [forked, pytest.param(started, marks=pytest.mark.thorough)] if sys.platform == "linux" else [started]
 
-#: Of a test with more cases than these, at one speed, the quick run has each value of each parameter, not all products.
-WHOLE = 12
 
-
-@pytest.hookimpl(wrapper=True)
+@pytest.hookimpl(hookwrapper=True)  # the emulated machines' pytest is old
 def pytest_collection():
     """Look for garbage when all is there, and never again among what stays: it saves a quarter of the collection."""
     gc.disable()
-    try:
-        return (yield)
-    finally:
-        gc.collect()
-        gc.freeze()
-        gc.enable()
+    yield
+    gc.collect()
+    gc.freeze()
+    gc.enable()
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_make_scheduler(config, log):
+    """Keep a module's tests in one process, as far as none waits for work: what they share is made once."""
+    from xdist.scheduler import WorkStealingScheduling
+
+    return WorkStealingScheduling(config, log)
 
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items):
-    """Leave to the thorough run the cases of large matrices that show no value which a case before them has not."""
-    matrices = defaultdict(list)
-    for item in items:
-        if hasattr(item, "callspec") and not item.get_closest_marker("thorough"):
-            matrices[item.parent, item.originalname, item.callspec.params.get("package")].append(item)
-    for cases in matrices.values():
-        seen = set()
-        for case in cases if len(cases) > WHOLE else ():
-            values = set(_axes(case))
-            if values <= seen:
-                case.add_marker("thorough")
-                case.add_marker("product")
-            seen |= values
-
-
-def _axes(item):
-    """The value that a case has of each ``parametrize``, of one with several names the row, and of each fixture."""
-    values = {name: id(value) for name, value in item.callspec.params.items()}
-    for mark in item.iter_markers("parametrize"):
-        names = mark.args[0].replace(",", " ").split() if isinstance(mark.args[0], str) else mark.args[0]
-        yield (*names, *(values.pop(name) for name in names))
-    yield from values.items()
+    leave_products(items)
 
 
 @pytest.fixture(params=PROCESSES, ids=lambda process: process.__name__)
