@@ -43,6 +43,9 @@ ENTRIES = list(gallery.entries())
 CODE = "\n".join(code for _, _, code in ENTRIES)
 
 
+@pytest.mark.parametrize(
+    "package", ["compiled", pytest.param("interpreted", marks=pytest.mark.thorough)], indirect=["package"]
+)
 @pytest.mark.usefixtures("package")
 def test_the_gallery_shows_what_its_code_draws():
     for name, caption, code in ENTRIES:

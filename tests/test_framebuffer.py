@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from PIL import Image
+from searching import at_both_speeds
 
 from paneldraw.testing import assert_pattern
 
@@ -254,8 +255,9 @@ def test_fill_sets_every_pixel(package, width, height, depth, data):
     assert not fb.pixels.any()
 
 
-@pytest.mark.parametrize(("width", "height"), [(65536, 1), (1, 65536)])
-def test_the_largest_framebuffers_can_be_drawn_to_their_ends(package, width, height):
+@pytest.mark.parametrize(("package", "size"), at_both_speeds([(65536, 1), (1, 65536)], []), indirect=["package"])
+def test_the_largest_framebuffers_can_be_drawn_to_their_ends(package, size):
+    width, height = size
     fb = package.Framebuffer(width, height)
     fb.line(0, 0, width - 1, height - 1)
     assert fb.pixels.all()

@@ -426,7 +426,7 @@ def test_a_terminal_is_left_in_order(end):
     [
         ({}, True),
         ({"PANELDRAW_PANEL": "sim://ssd1306"}, False),
-        ({"PANELDRAW_VIEW": "terminal"}, False),
+        pytest.param({"PANELDRAW_VIEW": "terminal"}, False, marks=pytest.mark.thorough),
     ],
 )
 def test_a_person_at_a_terminal_is_told_once_how_to_see_the_panel(environment, said):

@@ -17,6 +17,7 @@ import numpy as np
 import pytest
 from PIL import Image
 from running import ENVIRONMENT, UTF_8, forked, started
+from searching import quick
 
 from paneldraw import open_panel
 from paneldraw.cli import sim
@@ -305,7 +306,7 @@ def begun(*arguments, **options):
 
 
 @needs_buses
-@pytest.mark.parametrize("name", ["SIGTERM", "SIGINT", "SIGHUP", "SIGUSR1"])
+@pytest.mark.parametrize("name", quick(["SIGTERM", "SIGINT", "SIGHUP", "SIGUSR1"], ["SIGTERM", "SIGUSR1"]))
 def test_signals_are_passed_on(name, folder):
     number = getattr(signal, name)
     with begun("run", *ON_1, "--save", "out.gif", *python(TRAPS), stderr=subprocess.PIPE) as process:

@@ -268,7 +268,7 @@ def test_viewport_in_color_on_one_bit(pair: Any, dither: bool) -> None:
     "options",
     [
         {},
-        {"animate": False, "word_wrap": True},
+        pytest.param({"animate": False, "word_wrap": True}, marks=pytest.mark.thorough),
         {"color": "yellow", "bgcolor": "blue", "line_height": 10, "tabstop": 3},
     ],
     ids=["plain", "wrapped", "colored"],

@@ -68,7 +68,7 @@ def test_pictures_arrive_and_nothing_overflows(baudrate: int) -> None:
 
 
 @pytest.mark.parametrize("name", NOISES)
-@pytest.mark.parametrize("baudrate", [115_200, 500_000])
+@pytest.mark.parametrize("baudrate", [115_200, pytest.param(500_000, marks=pytest.mark.thorough)])
 def test_a_noisy_line_costs_bytes_and_no_picture(name: str, baudrate: int) -> None:
     clean = SimulatedPort()
     per_picture = cost(clean, joined(clean, baudrate=baudrate), screens(3))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from itertools import pairwise
+from itertools import pairwise, product
 from math import degrees
 
 import definitions
@@ -143,10 +143,13 @@ def test_dashes_out_of_sight_cost_nothing(package, r, width):
         assert not fb.pixels.any()
 
 
-@pytest.mark.parametrize("width", [1, 3])
-@pytest.mark.parametrize("dash", [(3, 2), (1, 1, 9, 4), (700, 60)])
-def test_dashes_of_an_arc_are_those_of_a_larger_picture(package, width, dash):
+STYLES = list(product([1, 3], [(3, 2), (1, 1, 9, 4), (700, 60)]))
+
+
+@pytest.mark.parametrize(("package", "style"), at_both_speeds(STYLES, STYLES[1:2]), indirect=["package"])
+def test_dashes_of_an_arc_are_those_of_a_larger_picture(package, style):
     """What is skipped as out of sight is no part of what is seen."""
+    width, dash = style
     for antialias in (None, package.Supersample(4)):
         small, large = package.Framebuffer(30, 20, depth=8), package.Framebuffer(700, 400, depth=8)
         for fb in (small, large):

@@ -24,8 +24,6 @@ def folder(tmp_path_factory):
     folder = tmp_path_factory.mktemp("page")
     for name, code in FILES.items():
         (folder / name).write_text(code, encoding="utf-8")
-    first = run(folder, "pytest", "-p", "no:cacheprovider", "test_station.py")
-    assert "there is no golden picture" in first.stdout
     written = run(folder, "pytest", "-p", "no:cacheprovider", "--update-frames")
     assert written.returncode == 0, written.stdout
     assert "golden pictures written: 3" in written.stdout
@@ -54,6 +52,14 @@ def test_the_tests_of_the_page_pass(folder):
     assert done.returncode == 0, done.stdout
     tests = sum(code.count("\ndef test_") for code in FILES.values()) + 1  # one is parametrized with two panels
     assert f"{tests} passed" in done.stdout
+
+
+@pytest.mark.thorough
+def test_the_first_run_has_no_golden_picture(tmp_path):
+    for name in ("station.py", "test_station.py"):
+        (tmp_path / name).write_text(FILES[name], encoding="utf-8")
+    first = run(tmp_path, "pytest", "-p", "no:cacheprovider", "test_station.py")
+    assert "there is no golden picture" in first.stdout
 
 
 @pytest.mark.thorough
