@@ -71,7 +71,7 @@ _QUEUED: Final = Report(0, 0, 0, 0.0, queued=True)
 
 @dataclass(slots=True)
 class Stats:
-    """Sums over all `Report`s of a panel, and what went wrong on the way."""
+    """Sums over all reports of a panel, and what went wrong on the way."""
 
     frames: int = 0
     """Pictures, however many sub-pictures make their greys."""
