@@ -1,4 +1,4 @@
-"""The site of these pages: ``sphinx-build -W --keep-going -n -c docs . site``.
+"""The site of these pages: ``sphinx-build -W --keep-going -c docs . build/site``.
 
 The source folder is the project's own, so that links between files are the same on GitHub and here, and the protocol, the
 change log and the like are pages as they are. What a link reaches beside the pages is a file in the repository.
@@ -39,7 +39,7 @@ include_patterns = [
     "CONTRIBUTING.md",
     "SECURITY.md",
 ]
-exclude_patterns = [".*", "site", "paneldraw", "tests", "**/build"]
+exclude_patterns = [".*", "build", "paneldraw", "tests"]
 nitpicky = True
 
 html_theme = "furo"
@@ -53,8 +53,8 @@ html_copy_source = False
 
 myst_heading_anchors = 4
 myst_links_external_new_tab = False
-# Pages are read on GitHub too, where quotes and dashes stay as they are written.
-smartquotes = False
+# Pages are read on GitHub too, where quotes stay as they are written.
+smartquotes_action = "D"
 suppress_warnings = ["ref.python"]  # `bus` may be one of many
 
 autodoc_member_order = "bysource"
@@ -84,7 +84,11 @@ def links_that_lead_somewhere(app: Sphinx, page: str, source: list[str]) -> None
 
     def leading(link: re.Match[str]) -> str:
         target = posixpath.normpath(posixpath.join(folder, link[2]))
-        if re.match(r"[a-z]+:", link[2]) or target.startswith("docs/") or target.removesuffix(".md") in app.env.found_docs:
+        if (
+            re.match(r"[a-z]+:", link[2])
+            or target.startswith("docs/")
+            or target.removesuffix(".md") in app.env.found_docs
+        ):
             return link[0]
         if not (PROJECT / target).exists():
             raise ExtensionError(f"{page}.md: there is no {target}")
@@ -96,12 +100,16 @@ def links_that_lead_somewhere(app: Sphinx, page: str, source: list[str]) -> None
 
 
 def navigation(app: Sphinx, page: str, source: list[str]) -> None:
-    """Make the table of contents of the first page's own sections: the pages that each of them links, in that order."""
-    if page == root_doc:
-        for part in _PART.finditer(source[0]):
-            listed = [link[2] for link in _LINK.finditer(part[2]) if link[2].endswith(".md")]
-            pages = "\n".join(posixpath.relpath(posixpath.normpath(posixpath.join("docs", name)), "docs") for name in listed)
-            source[0] += f"\n\n```{{toctree}}\n:hidden:\n:caption: {part[1]}\n\n{pages}\n```\n"
+    """Make the table of contents of the first page's own sections: the pages that each links, then others of its folder."""
+    if page != root_doc:
+        return
+    for part in _PART.finditer(source[0]):
+        links = [link[2] for link in _LINK.finditer(part[2]) if link[2].endswith(".md")]
+        listed = [posixpath.normpath(f"docs/{link}").removesuffix(".md") for link in links]
+        folder = "docs/" + part[1].lower().replace("-", "").replace(" ", "_")
+        listed += sorted(name for name in app.env.found_docs if name.startswith(f"{folder}/") and name not in listed)
+        pages = "\n".join(f"/{name}" for name in listed)
+        source[0] += f"\n\n```{{toctree}}\n:hidden:\n:caption: {part[1]}\n\n{pages}\n```\n" if listed else ""
 
 
 class Public(SphinxDirective):
@@ -130,7 +138,8 @@ def described(module: str, name: str, value: object) -> list[str]:
     if callable(value) and not hasattr(value, "about"):
         return [f".. autofunction:: {module}.{name}"]
     said = getattr(value, "about", "")
-    return [f".. py:data:: {module}.{name}", *([] if said or len(repr(value)) > 60 else [f"   :value: {value!r}"]), "", f"   {said}"]
+    shown = [] if said or len(repr(value)) > 60 else [f"   :value: {value!r}"]
+    return [f".. py:data:: {name}", *shown, "", f"   {said}"]
 
 
 def front_door(app: Sphinx, failed: Exception | None) -> None:

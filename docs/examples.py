@@ -7,7 +7,7 @@ from functools import partial
 
 from PIL import Image
 
-from paneldraw import open_panel, simulator
+from paneldraw import Framebuffer, open_panel, simulator
 from paneldraw.demos import DEMOS, find
 
 MOMENT = 10 * 3600 + 9 * 60 + 36.2
@@ -16,17 +16,19 @@ RATE = 30
 """Frames a second, of those whose bytes are counted."""
 
 
-def draw(name: str) -> Image.Image:
-    """Draw a demo as a panel of 128 x 64 pixels and 16 grays shows it."""
-    with open_panel("sim://ssd1325") as panel:
-        fb = panel.framebuffer()
-        find(name)(fb, MOMENT)
-        return simulator.image(fb.pixels, scale=3, max_level=fb.max_level)
+def draw(name: str, frames: int = 30, scale: int = 3) -> list[Image.Image]:
+    """Draw a demo as a panel of 128 x 64 pixels and 16 grays shows it, ten frames of each second."""
+    pictures = []
+    for number in range(frames):
+        fb = Framebuffer(128, 64, depth=4)
+        find(name)(fb, MOMENT + number / 10)
+        pictures.append(simulator.image(fb.pixels, scale=scale, max_level=fb.max_level))
+    return pictures
 
 
-def pictures() -> dict[str, Callable[[], Image.Image]]:
+def pictures() -> dict[str, Callable[[], list[Image.Image]]]:
     """What draws each picture of the page, by its file name."""
-    return {f"demos/{name}.png": partial(draw, name) for name in DEMOS}
+    return {f"demos/{name}.gif": partial(draw, name) for name in DEMOS}
 
 
 def wire_bytes(name: str, url: str) -> int:
@@ -46,5 +48,5 @@ def table() -> str:
     for name, about in DEMOS.items():
         costs = ", ".join(str(wire_bytes(name, url)) for url in ("sim://ssd1306", "sim://ssd1325"))
         code = f"[`{name}`](../paneldraw/demos/{name}.py)"
-        rows.append(f"| ![{name}](demos/{name}.png) | {code}: {about} | {costs} |")
+        rows.append(f"| ![{name}](demos/{name}.gif) | {code}: {about} | {costs} |")
     return "\n".join(rows)

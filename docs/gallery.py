@@ -66,9 +66,14 @@ def wire_bytes(code: str) -> int:
     return round(sum(sent) / len(sent))
 
 
-def pictures() -> dict[str, Callable[[], Image.Image]]:
-    """What draws each picture of the page, by its file name."""
-    return {name: partial(draw, code, caption) for name, caption, code in entries()}
+def pictures() -> dict[str, Callable[[], Image.Image | list[Image.Image]]]:
+    """What draws each picture of the pages, by its file name: of a GIF two seconds, ten pictures of each."""
+    drawn = {name: partial(draw, code, caption) for name, caption, code in entries()}
+    return {name: partial(_moving, picture) if name.endswith(".gif") else picture for name, picture in drawn.items()}
+
+
+def _moving(picture: Callable[..., Image.Image]) -> list[Image.Image]:
+    return [picture(t=MOMENT - 0.5 + number / 10) for number in range(20)]
 
 
 def run(code: str, t: float = MOMENT) -> Any:
@@ -78,9 +83,9 @@ def run(code: str, t: float = MOMENT) -> Any:
     return names["fb"]
 
 
-def draw(code: str, caption: str) -> Image.Image:
+def draw(code: str, caption: str, t: float = MOMENT) -> Image.Image:
     """Run an entry's code and show its framebuffer as a panel, with the caption below."""
-    fb = run(code)
+    fb = run(code, t)
     panel = simulator.image(_shades(fb), scale=5 if fb.width <= 72 else 3, max_level=255)
     if 12 * len(caption) > panel.width:
         raise ValueError(f"the caption {caption!r} is wider than its picture")

@@ -12,6 +12,7 @@ import subprocess
 import sys
 import tempfile
 from collections.abc import Callable, Mapping
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -23,9 +24,10 @@ import greys_seen
 import numpy as np
 import screens
 import specimens
+import steps
 import symptoms
 import worked_examples
-from PIL import Image
+from PIL import Image, ImageSequence
 
 from paneldraw import Framebuffer, Supersample, simulator
 
@@ -85,7 +87,11 @@ def looks() -> Image.Image:
     return sheet
 
 
-PICTURES: dict[str, Callable[[], Image.Image]] = {
+Drawn = Image.Image | list[Image.Image]
+"""A picture, or those of an animation of ten a second."""
+
+PICTURES: dict[str, Callable[[], Drawn]] = {
+    "panel.gif": partial(examples.draw, "scene", frames=60, scale=4),
     "lines.png": lines,
     "hello.png": hello,
     "looks.png": looks,
@@ -95,6 +101,7 @@ PICTURES: dict[str, Callable[[], Image.Image]] = {
     **symptoms.pictures(),
     **specimens.pictures(),
     **greys_seen.PICTURES,
+    **steps.pictures(),
 }
 
 #: Pages with excerpts or tables, and what makes the tables.
@@ -107,13 +114,34 @@ PAGES: dict[str, Mapping[str, Any]] = {
 }
 
 
+def save(drawn: Drawn, path: Path) -> None:
+    """Write a picture, or an animation, as a file."""
+    first, *others = drawn if isinstance(drawn, list) else [drawn]
+    moving = {"save_all": True, "append_images": others, "duration": 100, "loop": 0} if path.suffix == ".gif" else {}
+    path.parent.mkdir(exist_ok=True)
+    first.save(path, optimize=True, **moving)
+
+
+def is_fresh(name: str, drawn: Drawn) -> bool:
+    """Whether a file shows what is drawn; of an animation each picture that differs from the one before."""
+    frames = [np.asarray(frame.convert("RGB")) for frame in (drawn if isinstance(drawn, list) else [drawn])]
+    wanted = [
+        frame for before, frame in zip([None, *frames], frames, strict=False) if not np.array_equal(before, frame)
+    ]
+    with Image.open(HERE / name) as file:
+        shown = [np.asarray(frame.convert("RGB")) for frame in ImageSequence.Iterator(file)]
+    return len(shown) == len(wanted) and all(map(np.array_equal, shown, wanted))
+
+
 def main() -> None:
     """Write every picture beside this script, and the pages with excerpts and tables anew."""
     for name, draw in PICTURES.items():
-        draw().save(HERE / name, optimize=True)
+        save(draw(), HERE / name)
     for name, tables in PAGES.items():
         page = HERE / name
         page.write_text(worked_examples.page(page.read_text(encoding="utf-8"), tables), encoding="utf-8")
+    for name in steps.PAGES:
+        (HERE / name).write_text(steps.printed(name), encoding="utf-8")
     for page in gallery.PAGES:
         page.write_text(gallery.counted(page.read_text(encoding="utf-8")), encoding="utf-8")
 

@@ -29,8 +29,8 @@ from paneldraw import Panel, simulator
 from paneldraw.pacing import Beat
 
 HERE = Path(__file__).parent
-PAGES = ("tutorial.md", "trouble.md")
-"""Pages whose pictures are made so."""
+PAGES = ("tutorial.md", "trouble.md", "urls.md")
+"""Pages whose pictures and printed lines are made so."""
 TURNS = 12
 """Of a loop without an end."""
 _START = time.struct_time((2026, 3, 14, 10, 9, 30, 5, 73, 0))
@@ -122,9 +122,13 @@ def _stage() -> Iterator[None]:
     with contextlib.ExitStack() as stack:
         folder = stack.enter_context(tempfile.TemporaryDirectory())
         stack.enter_context(mock.patch.dict(os.environ, {"PANELDRAW_PANEL": "sim://ssd1306"}))
-        stack.enter_context(mock.patch.multiple(time, sleep=clock.sleep, localtime=clock.localtime, strftime=clock.strftime))
+        stack.enter_context(
+            mock.patch.multiple(time, sleep=clock.sleep, localtime=clock.localtime, strftime=clock.strftime)
+        )
         stack.enter_context(mock.patch.object(Panel, "frames", lambda panel, fps=30: clock.frames(panel, fps)))
-        stack.enter_context(mock.patch.object(smbus2, "SMBus", lambda *place: simulator.I2CBus({0x3C: simulator.SSD1306()})))
+        stack.enter_context(
+            mock.patch.object(smbus2, "SMBus", lambda *place: simulator.I2CBus({0x3C: simulator.SSD1306()}))
+        )
         stack.enter_context(mock.patch.object(atexit, "register", lambda function, *arguments: function))
         os.chdir(folder)
         stack.callback(os.chdir, before)
@@ -139,3 +143,14 @@ def draw(page: str, name: str) -> list[Image.Image]:
 def pictures() -> dict[str, Callable[[], list[Image.Image]]]:
     """What draws each picture of these pages, by its file name."""
     return {step.picture: partial(draw, page, step.picture) for page in PAGES for step in steps(page) if step.picture}
+
+
+def printed(page: str) -> str:
+    """Return a page with what its blocks print below them."""
+    done = iter(run(page))
+
+    def renewed(found: re.Match[str]) -> str:
+        said = next(done).printed
+        return found[0] if found["text"] is None else found[0].replace(f"```text\n{found['text']}", f"```text\n{said}")
+
+    return _STEP.sub(renewed, (HERE / page).read_text(encoding="utf-8"))

@@ -68,10 +68,9 @@ def test_every_python_block_is_tested_here():
     assert len(pictures.blocks("python")) == 2
 
 
-@pytest.mark.parametrize("name", ["lines.png", "hello.png"])
+@pytest.mark.parametrize("name", ["panel.gif", "lines.png", "hello.png"])
 def test_the_pictures_are_what_the_package_draws_now(name):
-    stored = Image.open(PROJECT / "docs" / name).convert("RGB")
-    assert np.array_equal(stored, pictures.PICTURES[name]().convert("RGB")), "python docs/make_pictures.py"
+    assert pictures.is_fresh(name, pictures.PICTURES[name]()), "python docs/make_pictures.py"
 
 
 def test_every_link_leads_to_a_file():
