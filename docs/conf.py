@@ -1,7 +1,7 @@
 """The site of these pages: ``sphinx-build -W --keep-going -c docs . build/site``.
 
-The source folder is the project's own, so that links between files are the same on GitHub and here, and the protocol, the
-change log and the like are pages as they are. What a link reaches beside the pages is a file in the repository.
+The source folder is the project's own, so that links between files are the same on GitHub and here, and the protocol,
+the change log and the like are pages as they are. What a link reaches beside the pages is a file in the repository.
 """
 
 from __future__ import annotations
@@ -100,7 +100,7 @@ def links_that_lead_somewhere(app: Sphinx, page: str, source: list[str]) -> None
 
 
 def navigation(app: Sphinx, page: str, source: list[str]) -> None:
-    """Make the table of contents of the first page's own sections: the pages that each links, then others of its folder."""
+    """Make the table of contents of the first page's sections: the pages that each links, then others of its folder."""
     if page != root_doc:
         return
     for part in _PART.finditer(source[0]):

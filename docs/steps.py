@@ -1,8 +1,8 @@
 """Pages that are run as they are printed: one block after the other, in one interpreter, on simulated panels.
 
-A picture below a block of Python is what the block left on the panel that it calls `panel`, or its `picture`; where the
-picture is a GIF, all that it showed. A block of text below one is what it printed. Clocks stand at nine past ten, and go
-on where the code sleeps or waits for the next frame; what would go on for ever ends after a few turns.
+A picture below a block of Python is what the block left on the panel that it calls `panel`, or its `picture`; a GIF is
+all that the panel showed. A block of text below one is what it printed. Clocks stand at nine past ten, and go on where
+the code sleeps or waits for the next frame; what would go on for ever ends after a few turns.
 """
 
 from __future__ import annotations
@@ -115,6 +115,10 @@ class _Clock:
 _localtime, _strftime = time.localtime, time.strftime
 
 
+def _bus(*place: object) -> simulator.I2CBus:
+    return simulator.I2CBus({0x3C: simulator.SSD1306()})
+
+
 @contextlib.contextmanager
 def _stage() -> Iterator[None]:
     """A folder, an environment, a clock and an I2C bus for a page alone."""
@@ -126,9 +130,7 @@ def _stage() -> Iterator[None]:
             mock.patch.multiple(time, sleep=clock.sleep, localtime=clock.localtime, strftime=clock.strftime)
         )
         stack.enter_context(mock.patch.object(Panel, "frames", lambda panel, fps=30: clock.frames(panel, fps)))
-        stack.enter_context(
-            mock.patch.object(smbus2, "SMBus", lambda *place: simulator.I2CBus({0x3C: simulator.SSD1306()}))
-        )
+        stack.enter_context(mock.patch.object(smbus2, "SMBus", _bus))
         stack.enter_context(mock.patch.object(atexit, "register", lambda function, *arguments: function))
         os.chdir(folder)
         stack.callback(os.chdir, before)

@@ -16,8 +16,8 @@ import steps
 import symptoms
 
 import paneldraw
-from paneldraw import cli, urls
-from paneldraw.controllers import CHIPS
+from paneldraw import Panel, cli, open_panel, simulator, urls
+from paneldraw.controllers import CHIPS, SSD1306
 from paneldraw.transports import i2c
 
 PROJECT = Path(__file__).parent.parent
@@ -154,6 +154,17 @@ def test_a_symptom_is_told_with_its_picture_and_what_mends_it(name):
     sections = [part for part in re.split(r"^## ", TROUBLE, flags=re.M)[1:] if f"](panels/{name}.png)" in part]
     assert len(sections) == 1
     assert f"`{symptoms.SYMPTOMS[name].mend}`" in sections[0].partition(f"](panels/{name}.png)")[2]
+
+
+def test_what_mends_a_clone_mends_it():
+    said = next(step.code for step in steps.steps("trouble.md") if "class Clone" in step.code)
+    names = {"simulator": simulator, "Panel": Panel, "SSD1306": SSD1306, "I2CTransport": i2c.I2CTransport}
+    exec(said, names)
+    with open_panel("sim://ssd1306") as right, right.frame() as fb:
+        fb.round_rect(0, 0, 128, 64, 9)
+        fb.text("102 km/h", 64, 32, anchor="mm")
+    wanted = right.simulated.render(scale=3).tobytes()
+    assert names["last_picture"]("plain").tobytes() == wanted != names["picture"].tobytes()
 
 
 @pytest.mark.parametrize("errno", [2, 13])
