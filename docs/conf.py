@@ -35,6 +35,7 @@ include_patterns = [
     "docs/**",
     "firmware_protocol/PROTOCOL.md",
     "firmware_protocol/firmware/README.md",
+    "README.md",
     "CHANGELOG.md",
     "CONTRIBUTING.md",
     "SECURITY.md",
@@ -50,6 +51,8 @@ html_theme_options = {
     "source_directory": "",
 }
 html_copy_source = False
+html_static_path = ["_static"]
+html_css_files = ["pages.css"]
 
 myst_heading_anchors = 4
 myst_links_external_new_tab = False
@@ -61,6 +64,7 @@ autodoc_member_order = "bysource"
 autodoc_typehints = "none"  # the docstrings give them, in words
 autodoc_default_options = {
     "members": True,
+    "special-members": "__call__",
     # What a class has from others stands with it, but for what is Python's and what all simulated chips have.
     "inherited-members": "object,BaseException,OSError,tuple,int,list,Chip,DisplayChip,Protocol,Generic",
 }
@@ -74,6 +78,7 @@ default_role = "py:obj"
 nitpick_ignore_regex = [("py:obj", ".*"), ("py:class", "(?!paneldraw|firmware_protocol).*")]
 
 _LINK = re.compile(r"(\]\()([^)#\s]+)((?:#[^)\s]*)?\))")
+_ENTRY = re.compile(r"(?<!!)\[([^]`]+)\]\(([^)#:]+\.md)\)")
 _FENCED = re.compile(r"(^```.*?^```$)", re.M | re.S)
 _PART = re.compile(r"^## (.+)\n((?s:.*?))(?=^## |\Z)", re.M)
 
@@ -100,16 +105,12 @@ def links_that_lead_somewhere(app: Sphinx, page: str, source: list[str]) -> None
 
 
 def navigation(app: Sphinx, page: str, source: list[str]) -> None:
-    """Make the table of contents of the first page's sections: the pages that each links, then others of its folder."""
-    if page != root_doc:
-        return
-    for part in _PART.finditer(source[0]):
-        links = [link[2] for link in _LINK.finditer(part[2]) if link[2].endswith(".md")]
-        listed = [posixpath.normpath(f"docs/{link}").removesuffix(".md") for link in links]
-        folder = "docs/" + part[1].lower().replace("-", "").replace(" ", "_")
-        listed += sorted(name for name in app.env.found_docs if name.startswith(f"{folder}/") and name not in listed)
-        pages = "\n".join(f"/{name}" for name in listed)
-        source[0] += f"\n\n```{{toctree}}\n:hidden:\n:caption: {part[1]}\n\n{pages}\n```\n" if listed else ""
+    """Make the table of contents of what the first pages link, in that order: of each section, or of a page without."""
+    if page.endswith("/index"):
+        parts = [(f":caption: {part[1]}\n", part[2]) for part in _PART.finditer(source[0])] or [("", source[0])]
+        for caption, text in parts:
+            entries = "\n".join(f"{name} <{target}>" for name, target in _ENTRY.findall(text))
+            source[0] += f"\n\n```{{toctree}}\n:hidden:\n{caption}\n{entries}\n```\n"
 
 
 class Public(SphinxDirective):
@@ -137,7 +138,7 @@ def described(module: str, name: str, value: object) -> list[str]:
         return [f".. autoclass:: {module}.{name}"]
     if callable(value) and not hasattr(value, "about"):
         return [f".. autofunction:: {module}.{name}"]
-    said = getattr(value, "about", "")
+    said = getattr(value, "about", f"Of {', '.join(map(str, value))}." if isinstance(value, dict) else "")
     shown = [] if said or len(repr(value)) > 60 else [f"   :value: {value!r}"]
     return [f".. py:data:: {name}", *shown, "", f"   {said}"]
 
