@@ -66,8 +66,9 @@ def run(page: str) -> list[Step]:
     """Run all blocks of a page; return them with what they left behind."""
     names: dict[str, Any] = {"__name__": "__main__"}
     done = steps(page)
-    with _stage():
+    with _stage() as clock:
         for step in done:
+            clock.turns = 0
             printed = io.StringIO()
             with contextlib.redirect_stdout(printed), contextlib.suppress(_OverError):
                 exec(compile(step.code, page, "exec"), names)
@@ -94,7 +95,7 @@ class _Clock:
 
     def sleep(self, seconds: float) -> None:
         self.now += seconds
-        self.turns += 1
+        self.turns += seconds > 0.02  # and no wait between two tries of the wire's
         if self.turns > 100:
             raise _OverError
 
@@ -120,7 +121,7 @@ def _bus(*place: object) -> simulator.I2CBus:
 
 
 @contextlib.contextmanager
-def _stage() -> Iterator[None]:
+def _stage() -> Iterator[_Clock]:
     """A folder, an environment, a clock and an I2C bus for a page alone."""
     clock, before = _Clock(), Path.cwd()
     with contextlib.ExitStack() as stack:
@@ -134,7 +135,7 @@ def _stage() -> Iterator[None]:
         stack.enter_context(mock.patch.object(atexit, "register", lambda function, *arguments: function))
         os.chdir(folder)
         stack.callback(os.chdir, before)
-        yield
+        yield clock
 
 
 def draw(page: str, name: str) -> list[Image.Image]:

@@ -80,7 +80,7 @@ def test_links_lead_somewhere(name):
 def test_the_first_page_leads_to_all_others():
     index = text_of(DOCS / "index.md")
     linked = {(DOCS / link).resolve() for link in re.findall(r"\]\(([^)#]*\.md)\)", index)}
-    linked |= {(DOCS / "api" / link).resolve() for link in re.findall(r"\]\((\w+\.md)\)", text_of(DOCS / "api/index.md"))}
+    linked |= {DOCS / "api" / link for link in re.findall(r"\]\((\w+\.md)\)", text_of(DOCS / "api/index.md"))}
     assert [str(page.relative_to(PROJECT)) for page in PAGES if page not in linked] == ["docs/index.md"]
 
 
