@@ -5,7 +5,6 @@
 
 from __future__ import annotations
 
-import math
 import os
 import re
 import subprocess
@@ -41,18 +40,6 @@ def blocks(language: str, section: str = "") -> list[str]:
     if section:
         text = re.split(r"^## ", text.partition(f"\n## {section}\n")[2], maxsplit=1, flags=re.M)[0]
     return re.findall(rf"^```{language}\n(.*?)^```$", text, re.M | re.S)
-
-
-def lines() -> Image.Image:
-    """Sixteen levels of grey: on the left lines as they come, on the right the same ones anti-aliased."""
-    fb = Framebuffer(128, 64, depth=4)
-    for name, x, antialias in (("aliased", 31, None), ("smooth", 96, Supersample(4))):
-        fb.antialias = antialias
-        fb.text(name, x, 0, anchor="mt")
-        for k in range(20):
-            dx, dy = math.cos(math.radians(18 * k + 5)), math.sin(math.radians(18 * k + 5))
-            fb.line(x + 8 * dx, 36 + 8 * dy, x + 26 * dx, 36 + 26 * dy, width=1 + k % 2)
-    return simulator.image(fb.pixels, scale=6, max_level=fb.max_level)
 
 
 def hello() -> Image.Image:
@@ -92,7 +79,6 @@ Drawn = Image.Image | list[Image.Image]
 
 PICTURES: dict[str, Callable[[], Drawn]] = {
     "panel.gif": partial(examples.draw, "scene", frames=60, scale=4),
-    "lines.png": lines,
     "hello.png": hello,
     "looks.png": looks,
     **gallery.pictures(),
