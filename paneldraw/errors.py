@@ -5,17 +5,6 @@ from __future__ import annotations
 import difflib
 from collections.abc import Callable, Iterable
 
-__all__ = [
-    "PanelBusyError",
-    "PanelDisconnectedError",
-    "PanelError",
-    "PanelNotFoundError",
-    "PanelPermissionError",
-    "PanelTimeoutError",
-    "ProtocolError",
-    "TransportError",
-]
-
 
 class PanelError(Exception):
     """Root of all that can go wrong between a script and the glass."""

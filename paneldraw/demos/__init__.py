@@ -20,8 +20,6 @@ if TYPE_CHECKING:
 
     Demo = Callable[[Framebuffer, float], None]
 
-__all__ = ["DEMOS", "find"]
-
 DEMOS = {
     "scene": "lines, a cube and a clock together",
     "lines": "aliased and anti-aliased lines side by side, under a magnifying glass",
