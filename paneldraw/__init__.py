@@ -15,20 +15,24 @@ if not _compiled.COMPILED:
 if TYPE_CHECKING:
     from paneldraw.animation import Animation
     from paneldraw.framebuffer import Framebuffer
+    from paneldraw.framebuffer.inks import Gradient, Pattern
     from paneldraw.framebuffer.sprites import Sprite
     from paneldraw.panel import Panel, open_panel
     from paneldraw.raster.cone import ConeFilter
     from paneldraw.raster.coverage import Supersample
     from paneldraw.text import Font
 
-__all__ = ["Animation", "ConeFilter", "Font", "Framebuffer", "Panel", "Sprite", "Supersample", "open_panel"]
+__all__ = ["Animation", "ConeFilter", "Font", "Framebuffer", "Gradient", "Panel", "Pattern", "Sprite", "Supersample"]
+__all__ += ["open_panel"]
 
 _LATER = {
     "Animation": "animation",
     "ConeFilter": "raster.cone",
     "Font": "text",
     "Framebuffer": "framebuffer",
+    "Gradient": "framebuffer.inks",
     "Panel": "panel",
+    "Pattern": "framebuffer.inks",
     "Sprite": "framebuffer.sprites",
     "Supersample": "raster.coverage",
     "open_panel": "panel",

@@ -15,6 +15,7 @@ from cython.cimports.paneldraw.framebuffer.arguments import FAR, is_word, level,
 from cython.cimports.paneldraw.framebuffer.copying import (
     copy_levels,
     move_levels,
+    operation,
     paint_picture,
     paint_seen,
     set_text,
@@ -22,13 +23,14 @@ from cython.cimports.paneldraw.framebuffer.copying import (
     write_text,
 )
 from cython.cimports.paneldraw.framebuffer.painter import Painter
-from cython.cimports.paneldraw.raster.surface import Surface
+from cython.cimports.paneldraw.raster.surface import OVER, Surface
 
 from paneldraw._signatures import SignatureOfInit
 from paneldraw.framebuffer import pictures
 from paneldraw.framebuffer.alignment import aligned_box, aligned_radius, outward
 from paneldraw.framebuffer.angles import sweep
 from paneldraw.framebuffer.arguments import LARGEST, check_antialias, choice, in_turn, real, size, whole
+from paneldraw.framebuffer.inks import Ink, covered_rows
 from paneldraw.framebuffer.scaling import check_fit, checked_size
 from paneldraw.raster.surface import OPS
 
@@ -110,8 +112,12 @@ class Framebuffer:
     -----
     Every drawing call raises ``TypeError`` for a coordinate that is not a number, and ``ValueError`` for one that is
     not finite, for a level outside of 0 ... max_level, and for a negative size. In each call `c` is the level
-    (default: the highest) and `op` says how it meets the level that is there: ``"over"`` replaces it, ``"xor"``
-    combines the bits, ``"add"`` adds up to the highest level, ``"max"`` keeps the higher and ``"clear"`` makes it 0.
+    (default: the highest) or an ink, and `op` says how it meets the level that is there: ``"over"`` replaces it,
+    ``"xor"`` combines the bits, ``"add"`` adds up to the highest level, ``"max"`` keeps the higher and ``"clear"``
+    makes it 0.
+
+    An ink, a `Pattern` or `Gradient`, has a level for every pixel, with which that one is painted, once a call, as far
+    as the shape covers it: to the nearest 255th, and with one bit a pixel where that is half or more.
 
     Aliased and of width 1, curves are the midpoint method's. Wider or anti-aliased, an outline goes along the true
     curve, half of its width on either side, and a pixel or sub-pixel is in it if its reference point is. Filled, a
@@ -192,10 +198,42 @@ class Framebuffer:
         check_antialias(value)
         self.painter.antialias = value
 
+    def _inked(self, name, given):
+        """Draw with an ink: its levels, as far as the same call with the highest level covers pixels of 8 bits."""
+        del given["self"]
+        ink, op = given.pop("c"), given.pop("op", "over")
+        code: cython.int = operation(op)
+        mine: Surface = self.surface
+        shape = Framebuffer(mine.width, mine.height, 8, antialias=self.painter.antialias)
+        shape.surface.set_window(mine.left, mine.top, mine.right, mine.bottom)
+        if name == "flood_fill":
+            if given["border"] is not None:
+                level(mine, given["border"])
+            shape.pixels[...] = self.pixels
+            result = shape.flood_fill(c=255, op="xor", **given)
+            cover = np.where(shape.pixels == self.pixels, np.uint8(0), np.uint8(255))
+        else:
+            result = getattr(shape, name)(c=255, **given)
+            cover = shape.pixels
+        if code == OVER and given.get("inverse"):
+            # The characters are dark.
+            getattr(self, name)(c=0, **given)
+        top, bottom = covered_rows(cover)
+        if top < bottom:
+            levels, opacity = ink.levels((mine.left, top, mine.right, bottom), mine.max_level)
+            cover = cover[top:bottom, mine.left : mine.right]
+            if opacity is not None:
+                cover = np.rint(cover * (opacity / 255)).astype(np.uint8)
+            copy_levels(mine, levels, cover, mine.left, top, -1, None, op)
+        return result
+
     # -- Points and lines
 
-    def fill(self, c: int | None) -> None:
+    def fill(self, c: int | Ink | None) -> None:
         """Set every pixel, or within `clip` those of its window, to level `c` (None: the highest)."""
+        if _is_ink(c):
+            self._inked("fill", locals())
+            return
         self.painter.fill(c)
 
     def clear(self) -> None:
@@ -203,7 +241,7 @@ class Framebuffer:
         self.fill(0)
 
     @cython.locals(surface=Surface, column=cython.longlong, row=cython.longlong, color=cython.longlong)
-    def pixel(self, x: int | float, y: int | float, c: int | None = None, *, op: str = "over") -> int | None:
+    def pixel(self, x: int | float, y: int | float, c: int | Ink | None = None, *, op: str = "over") -> int | None:
         """Paint one pixel with level `c`, or, with no level given, return the level it has (0 outside).
 
         Examples
@@ -225,6 +263,9 @@ class Framebuffer:
             return 0
         color = quick(c)
         if not 0 <= color <= surface.max_level:
+            if _is_ink(c):
+                self._inked("pixel", {"self": self, "x": x, "y": y, "c": c, "op": op})
+                return None
             color = level(surface, c)
         if not is_word(op, "over"):
             surface.paint_with(cython.cast(cython.int, color), choice("op", op, OPS))
@@ -233,12 +274,22 @@ class Framebuffer:
             surface.pixels[row * surface.stride + column] = color
         return None
 
-    def hline(self, x: int | float, y: int | float, w: int | float, c: int | None = None, *, op: str = "over") -> None:
+    def hline(
+        self, x: int | float, y: int | float, w: int | float, c: int | Ink | None = None, *, op: str = "over"
+    ) -> None:
         """Draw a horizontal line of `w` pixels from (x, y) to the right; a negative `w` raises ``ValueError``."""
+        if _is_ink(c):
+            self._inked("hline", locals())
+            return
         self.painter.run(x, y, w, True, c, op)
 
-    def vline(self, x: int | float, y: int | float, h: int | float, c: int | None = None, *, op: str = "over") -> None:
+    def vline(
+        self, x: int | float, y: int | float, h: int | float, c: int | Ink | None = None, *, op: str = "over"
+    ) -> None:
         """Draw a vertical line of `h` pixels from (x, y) downward; a negative `h` raises ``ValueError``."""
+        if _is_ink(c):
+            self._inked("vline", locals())
+            return
         self.painter.run(x, y, h, False, c, op)
 
     def line(
@@ -247,7 +298,7 @@ class Framebuffer:
         y1: int | float,
         x2: int | float,
         y2: int | float,
-        c: int | None = None,
+        c: int | Ink | None = None,
         *,
         width: int | float = 1,
         cap: str = "square",
@@ -304,6 +355,9 @@ class Framebuffer:
         ....##..
         ......##
         """
+        if _is_ink(c):
+            self._inked("line", locals())
+            return
         style = self.painter.style(c, op, width, antialias, cap, "miter", dash)
         dda = 0 if is_word(algorithm, "bresenham") else choice("algorithm", algorithm, _ALGORITHMS)
         self.painter.line(x1, y1, x2, y2, style, dda)
@@ -311,7 +365,7 @@ class Framebuffer:
     def lines(
         self,
         segments: ArrayLike,
-        c: int | None = None,
+        c: int | Ink | None = None,
         *,
         width: int | float = 1,
         cap: str = "square",
@@ -344,11 +398,14 @@ class Framebuffer:
         ........
         ########
         """
+        if _is_ink(c):
+            self._inked("lines", locals())
+            return
         style = self.painter.style(c, op, width, antialias, cap, "miter", dash)
         dda = 0 if is_word(algorithm, "bresenham") else choice("algorithm", algorithm, _ALGORITHMS)
         self.painter.segments(rows_of("segments", segments, 4, 1 if style.thin else 256), style, dda)
 
-    def points(self, xy: ArrayLike, c: int | None = None, *, op: str = "over") -> None:
+    def points(self, xy: ArrayLike, c: int | Ink | None = None, *, op: str = "over") -> None:
         """Paint many pixels in one call: the rows (x, y) of an array of shape (n, 2).
 
         A pixel that is there twice is painted twice.
@@ -367,6 +424,9 @@ class Framebuffer:
         #...
         ...#
         """
+        if _is_ink(c):
+            self._inked("points", locals())
+            return
         self.painter.paint_with(c, op)
         self.painter.points(rows_of("xy", xy, 2, 1))
 
@@ -376,7 +436,7 @@ class Framebuffer:
         y1: int | float,
         x2: int | float,
         y2: int | float,
-        c: int | None = None,
+        c: int | Ink | None = None,
         *,
         heads: str = "end",
         head: int | float | None = None,
@@ -419,6 +479,9 @@ class Framebuffer:
         .......###..
         .......#....
         """
+        if _is_ink(c):
+            self._inked("arrow", locals())
+            return
         if is_word(cap, "round"):
             raise ValueError("cap must be one of 'square', 'butt', not 'round'")
         pointed = choice("heads", heads, _HEADS)
@@ -430,7 +493,7 @@ class Framebuffer:
     def polyline(
         self,
         points: ArrayLike,
-        c: int | None = None,
+        c: int | Ink | None = None,
         *,
         closed: bool = False,
         width: int | float = 1,
@@ -471,12 +534,15 @@ class Framebuffer:
         .#...#.
         #.....#
         """
+        if _is_ink(c):
+            self._inked("polyline", locals())
+            return
         self.painter.path("points", points, closed, self.painter.style(c, op, width, antialias, cap, join, dash))
 
     def bezier(
         self,
         points: ArrayLike,
-        c: int | None = None,
+        c: int | Ink | None = None,
         *,
         closed: bool = False,
         width: int | float = 1,
@@ -529,12 +595,15 @@ class Framebuffer:
         #......###..
         #...........
         """
+        if _is_ink(c):
+            self._inked("bezier", locals())
+            return
         self.painter.curve(points, closed, self.painter.style(c, op, width, antialias, cap, join, dash))
 
     def curve(
         self,
         points: ArrayLike,
-        c: int | None = None,
+        c: int | Ink | None = None,
         *,
         closed: bool = False,
         width: int | float = 1,
@@ -583,6 +652,9 @@ class Framebuffer:
         .#.....#..#..
         #.......##...
         """
+        if _is_ink(c):
+            self._inked("curve", locals())
+            return
         self.painter.smooth(points, closed, self.painter.style(c, op, width, antialias, cap, join, dash))
 
     def triangle(
@@ -593,7 +665,7 @@ class Framebuffer:
         y2: int | float,
         x3: int | float,
         y3: int | float,
-        c: int | None = None,
+        c: int | Ink | None = None,
         fill: bool = False,
         *,
         width: int | float = 1,
@@ -628,6 +700,9 @@ class Framebuffer:
         .#...#.
         #######
         """
+        if _is_ink(c):
+            self._inked("triangle", locals())
+            return
         style = self.painter.style(c, op, width, antialias, "square", join, dash)
         covered = 1 if is_word(edges, "covered") else choice("edges", edges, _EDGES)
         self.painter.triangle(x1, y1, x2, y2, x3, y3, fill, covered, style)
@@ -637,7 +712,7 @@ class Framebuffer:
         x: int | float,
         y: int | float,
         coords: ArrayLike,
-        c: int | None = None,
+        c: int | Ink | None = None,
         fill: bool = False,
         *,
         rule: str = "even-odd",
@@ -688,6 +763,9 @@ class Framebuffer:
         ..###..
         ...#...
         """
+        if _is_ink(c):
+            self._inked("poly", locals())
+            return
         nonzero = 0 if is_word(rule, "even-odd") else choice("rule", rule, _RULES)
         covered = 1 if is_word(edges, "covered") else choice("edges", edges, _EDGES)
         style = self.painter.style(c, op, width, antialias, "square", join, dash)
@@ -703,7 +781,7 @@ class Framebuffer:
         y: int | float,
         w: int | float,
         h: int | float,
-        c: int | None = None,
+        c: int | Ink | None = None,
         fill: bool = False,
         *,
         angle: int | float = 0,
@@ -755,6 +833,9 @@ class Framebuffer:
         .#.....#.
         .#######.
         """
+        if _is_ink(c):
+            self._inked("rect", locals())
+            return
         if not is_word(align, "center"):
             box = aligned_box((x, y, w, h), outward(align, width))
             if box is None:
@@ -774,7 +855,7 @@ class Framebuffer:
         w: int | float,
         h: int | float,
         r: int | float,
-        c: int | None = None,
+        c: int | Ink | None = None,
         fill: bool = False,
         *,
         corners: int = 0b1111,
@@ -816,6 +897,9 @@ class Framebuffer:
         #.......#
         .#######.
         """
+        if _is_ink(c):
+            self._inked("round_rect", locals())
+            return
         if not is_word(align, "center"):
             off = outward(align, width)
             box = aligned_box((x, y, w, h), off)
@@ -838,7 +922,7 @@ class Framebuffer:
         x: int | float,
         y: int | float,
         r: int | float,
-        c: int | None = None,
+        c: int | Ink | None = None,
         fill: bool = False,
         *,
         width: int | float = 1,
@@ -881,6 +965,9 @@ class Framebuffer:
         .f...f.5c4.4c5
         ..fff...5dfd5.
         """
+        if _is_ink(c):
+            self._inked("circle", locals())
+            return
         if not is_word(align, "center"):
             radius = aligned_radius("r", r, outward(align, width))
             r, width, fill = (r, 1, True) if radius is None else (radius, width, fill)
@@ -896,7 +983,7 @@ class Framebuffer:
         y: int | float,
         xr: int | float,
         yr: int | float,
-        c: int | None = None,
+        c: int | Ink | None = None,
         fill: bool = False,
         quadrants: int = 0b1111,
         *,
@@ -950,6 +1037,9 @@ class Framebuffer:
         .#.......#.
         ..#######..
         """
+        if _is_ink(c):
+            self._inked("ellipse", locals())
+            return
         quarters = size("quadrants", quadrants)
         if not 0 <= quarters <= 15:
             wanted = "the sum of those to draw of 1, 2, 4 and 8"
@@ -973,7 +1063,7 @@ class Framebuffer:
         r: int | float,
         start: int | float,
         end: int | float,
-        c: int | None = None,
+        c: int | Ink | None = None,
         *,
         yr: int | float | None = None,
         width: int | float = 1,
@@ -1024,6 +1114,9 @@ class Framebuffer:
         #.......#
         #.......#
         """
+        if _is_ink(c):
+            self._inked("arc", locals())
+            return
         start, end = real("start", start), real("end", end)
         style = self.painter.style(c, op, width, antialias, cap, "miter", dash)
         swept = sweep(start, end)
@@ -1041,7 +1134,7 @@ class Framebuffer:
         r: int | float,
         start: int | float,
         end: int | float,
-        c: int | None = None,
+        c: int | Ink | None = None,
         fill: bool = False,
         *,
         width: int | float = 1,
@@ -1085,6 +1178,9 @@ class Framebuffer:
         #......#
         ########
         """
+        if _is_ink(c):
+            self._inked("sector", locals())
+            return
         start, end = real("start", start), real("end", end)
         style = self.painter.style(c, op, width, antialias, "butt")
         swept = sweep(start, end)
@@ -1094,7 +1190,7 @@ class Framebuffer:
             self.painter.slice(x, y, r, start % 360, end % 360, swept, fill, style)
 
     def flood_fill(
-        self, x: int | float, y: int | float, c: int | None = None, *, border: int | None = None, op: str = "over"
+        self, x: int | float, y: int | float, c: int | Ink | None = None, *, border: int | None = None, op: str = "over"
     ) -> int:
         """Fill the area that (x, y) lies in: the pixels of its level that hang together with it.
 
@@ -1138,6 +1234,8 @@ class Framebuffer:
         ##......
         #.......
         """
+        if _is_ink(c):
+            return self._inked("flood_fill", locals())
         return self.painter.flood(x, y, c, border, op)
 
     # -- Text and pictures
@@ -1147,7 +1245,7 @@ class Framebuffer:
         s: str,
         x: int | float,
         y: int | float,
-        c: int | None = None,
+        c: int | Ink | None = None,
         *,
         font: Font | None = None,
         anchor: str = "la",
@@ -1205,6 +1303,9 @@ class Framebuffer:
         .........
         .........
         """
+        if _is_ink(c):
+            self._inked("text", locals())
+            return
         self.painter.paint_with(c, op)
         if is_word(direction, "right") and inverse is False and quick(line_spacing) == 0:
             write_text(self.painter.coverage, s, x, y, font, anchor)
@@ -1218,7 +1319,7 @@ class Framebuffer:
         y: int | float,
         w: int | float,
         h: int | float,
-        c: int | None = None,
+        c: int | Ink | None = None,
         *,
         font: Font | None = None,
         align: Align = "left",
@@ -1278,6 +1379,8 @@ class Framebuffer:
         >>> fb.text_box("Rain in the afternoon, wind from the west", 0, 0, 64, 16, ellipsis="")
         'afternoon, wind from the west'
         """
+        if _is_ink(c):
+            return self._inked("text_box", locals())
         self.painter.paint_with(c, op)
         style = (align, valign, wrap, ellipsis, line_spacing)
         return write_box(self.painter.coverage, s, x, y, w, h, font, style, inverse)
@@ -1586,6 +1689,10 @@ class Framebuffer:
 
     def __repr__(self) -> str:
         return f"Framebuffer({self.width}, {self.height}, depth={self.depth})"
+
+
+def _is_ink(c):
+    return c is not None and type(c) is not int and isinstance(c, Ink)
 
 
 def _surface_of(source):
