@@ -442,12 +442,14 @@ class Framebuffer:
         head: int | float | None = None,
         width: int | float = 1,
         cap: str = "square",
+        dash: Iterable[int | float] | None = None,
         antialias: AntialiasOrDefault = ...,
         op: str = "over",
     ) -> None:
         """Draw the line from (x1, y1) to (x2, y2) with an arrow head at its end, as one shape.
 
-        A head is a filled triangle with its tip at the end point, as broad as it is long.
+        A head is a filled triangle with its tip at the end point, as broad as it is long. `polyline`, `bezier` and
+        `curve` have heads too.
 
         Parameters
         ----------
@@ -457,15 +459,13 @@ class Framebuffer:
             Where there is a head: at (x2, y2), at (x1, y1), or at both.
         head : int or float, optional
             How long a head is, in pixels. Default: a pixel and three times the width.
-        width, antialias, op
-            As for `line`.
-        cap : {"square", "butt"}
-            As for `line`, of an end without a head.
+        width, cap, dash, antialias, op
+            As for `line`. An end with a head has no cap.
 
         Raises
         ------
         ValueError
-            If `head` is negative, `width` is below 1/256, or `heads`, `cap` or `op` is none of these.
+            If `head` is negative or `heads` is none of these, and as for `line`.
 
         Examples
         --------
@@ -482,11 +482,9 @@ class Framebuffer:
         if _is_ink(c):
             self._inked("arrow", locals())
             return
-        if is_word(cap, "round"):
-            raise ValueError("cap must be one of 'square', 'butt', not 'round'")
-        pointed = choice("heads", heads, _HEADS)
-        style = self.painter.style(c, op, width, antialias, cap)
-        self.painter.arrow((x1, y1, x2, y2), head, (pointed > 1, pointed % 2 == 1), style)
+        points = [real(name, number) for name, number in (("x1", x1), ("y1", y1), ("x2", x2), ("y2", y2))]
+        style = self.painter.style(c, op, width, antialias, cap, "miter", dash)
+        self.painter.arrow(0, "points", points, head, _pointed(heads), style)
 
     # -- Paths
 
@@ -500,6 +498,8 @@ class Framebuffer:
         cap: str = "square",
         join: str = "miter",
         dash: Iterable[int | float] | None = None,
+        heads: str | None = None,
+        head: int | float | None = None,
         antialias: AntialiasOrDefault = ...,
         op: str = "over",
     ) -> None:
@@ -517,6 +517,11 @@ class Framebuffer:
         join : {"miter", "round", "bevel"}
             How the outer side of a thick line's corner is filled: to a point, unless that lies more than 4 half widths
             away, else like a bevel; by an arc (a polygon within a 256th of a pixel of it); or by a straight edge.
+        heads : {"end", "start", "both"}, optional
+            Where an open path has an arrow head, as `arrow` has: its tip at the end point, the middle of its base where
+            the path is `head` pixels away from that for the last time, and what is between left out.
+        head : int or float, optional
+            How long a head is, in pixels. Default: a pixel and three times the width.
 
         Raises
         ------
@@ -537,7 +542,11 @@ class Framebuffer:
         if _is_ink(c):
             self._inked("polyline", locals())
             return
-        self.painter.path("points", points, closed, self.painter.style(c, op, width, antialias, cap, join, dash))
+        style = self.painter.style(c, op, width, antialias, cap, join, dash)
+        if heads is not None:
+            self.painter.arrow(0, "points", points, head, _pointed(heads, closed), style)
+        else:
+            self.painter.path("points", points, closed, style)
 
     def bezier(
         self,
@@ -549,6 +558,8 @@ class Framebuffer:
         cap: str = "square",
         join: str = "miter",
         dash: Iterable[int | float] | None = None,
+        heads: str | None = None,
+        head: int | float | None = None,
         antialias: AntialiasOrDefault = ...,
         op: str = "over",
     ) -> None:
@@ -571,6 +582,8 @@ class Framebuffer:
             As for `line`. An aliased curve of width 1 counts pixels of the dash pattern.
         join : {"miter", "round", "bevel"}
             As for `polyline`; where pieces of a chain meet at an angle, and at cusps.
+        heads, head
+            As for `polyline`.
 
         Raises
         ------
@@ -598,7 +611,11 @@ class Framebuffer:
         if _is_ink(c):
             self._inked("bezier", locals())
             return
-        self.painter.curve(points, closed, self.painter.style(c, op, width, antialias, cap, join, dash))
+        style = self.painter.style(c, op, width, antialias, cap, join, dash)
+        if heads is not None:
+            self.painter.arrow(1, "points", points, head, _pointed(heads, closed), style)
+        else:
+            self.painter.curve(points, closed, style)
 
     def curve(
         self,
@@ -610,6 +627,8 @@ class Framebuffer:
         cap: str = "square",
         join: str = "miter",
         dash: Iterable[int | float] | None = None,
+        heads: str | None = None,
+        head: int | float | None = None,
         antialias: AntialiasOrDefault = ...,
         op: str = "over",
     ) -> None:
@@ -625,7 +644,7 @@ class Framebuffer:
         c : int, optional
         closed : bool, default False
             Whether the curve goes on from the last point to the first.
-        width, cap, join, dash, antialias, op
+        width, cap, join, dash, heads, head, antialias, op
             As for `bezier`.
 
         Raises
@@ -655,7 +674,11 @@ class Framebuffer:
         if _is_ink(c):
             self._inked("curve", locals())
             return
-        self.painter.smooth(points, closed, self.painter.style(c, op, width, antialias, cap, join, dash))
+        style = self.painter.style(c, op, width, antialias, cap, join, dash)
+        if heads is not None:
+            self.painter.arrow(2, "points", points, head, _pointed(heads, closed), style)
+        else:
+            self.painter.smooth(points, closed, style)
 
     def triangle(
         self,
@@ -1737,6 +1760,14 @@ def _restored(kind, width, height, depth, antialias, levels, attributes):
     for name, value in attributes.items():
         setattr(fb, name, value)
     return fb
+
+
+def _pointed(heads, closed=False):
+    """Whether there is a head at the start, and at the end."""
+    if closed:
+        raise ValueError("heads must be None of a path that is closed: it has no ends")
+    ends = choice("heads", heads, _HEADS)
+    return ends > 1, ends % 2 == 1
 
 
 def _shifted(x, y, coords):

@@ -13,6 +13,8 @@ cdef class Style:
     cdef int cap, join
     # Whether lines are one pixel wide and aliased.
     cdef bint thin
+    # Whether a head is at an end, which then has no cap.
+    cdef bint butt_start, butt_end
 
 cdef class Painter:
     cdef Surface surface
@@ -34,7 +36,9 @@ cdef class Painter:
     cdef object segments(self, Numbers numbers, Style style, bint dda)
     cdef object segment(self, long long x1, long long y1, long long x2, long long y2, Style style, bint dda)
     cdef object path(self, str name, object points, bint closed, Style style)
-    cdef object arrow(self, tuple places, object head, tuple pointed, Style style)
+    cdef object arrow(self, int kind, str name, object points, object head, tuple pointed, Style style)
+    cdef object _thin_arrow(self, int kind, str name, object points, object shape, Style style)
+    cdef list _chords(self, int kind, Numbers numbers, Style style)
     cdef object some_corners(
         self, object x, object y, object w, object h, object r, int corners, bint fill, Style style
     )
@@ -97,6 +101,8 @@ cdef class Painter:
     cdef object _far_thin_path(self, Surface surface, object points, bint closed, object dash, bint dda)
     cdef object _far_path(self, object points, bint closed, Style style)
     cdef object _far_curve(self, object controls, bint closed, Style style)
+    cdef object _add_far_path(self, object points, bint closed, Style style)
+    cdef object _add_polygons(self, object shape)
     cdef object _far_fill(self, object shape, bint nonzero, Style style)
     cdef object _far_outlines(self, object paths, bint closed, bint fill, bint nonzero, Style style)
     cdef object _far_box(self, object box, object a, object b, bint sharp, bint fill, Style style)

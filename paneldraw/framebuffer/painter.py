@@ -100,6 +100,7 @@ class Painter:
         style.width = 256 if type(width) is int and width == 1 else min(line_width(width), clip.WIDEST)
         style.dash = None if dash is None else dash_lengths(dash)
         style.thin = antialias is None and style.width == 256
+        style.butt_start = style.butt_end = False
         self.paint_with(c, op)
         return style
 
@@ -118,27 +119,58 @@ class Painter:
         else:
             self.segment(a, b, c, d, style, dda)
 
-    def arrow(self, places, head, pointed, style):
-        """Draw a line with a head at one of its ends or both."""
-        names = ("x1", "y1", "x2", "y2")
-        ends = [nearest(name, place, 256) for name, place in zip(names, places, strict=True)]
-        width = style.width
-        length = 3 * width + 256 if head is None else nearest("head", head, 256)
+    def arrow(self, kind, name, points, head, pointed, style):
+        """Draw a path with a head at its start, its end or both: lines, a Bézier curve or a smooth one."""
+        numbers: Numbers = points_of(name, points, 256)
+        length = 3 * style.width + 256 if head is None else nearest("head", head, 256)
         if length < 0:
             raise ValueError(f"head must not be negative, and is {head}")
-        shape = outline.arrow(ends, width, style.cap == _SQUARE, length, pointed)
-        if not style.thin:
-            self._far_fill(shape, True, style)
+        if kind == 1:
+            _check_controls(numbers.count)
+        if numbers.count == 0:
             return
+        shape, rest = outline.heads(self._chords(kind, numbers, style), length, style.width, pointed)
+        if style.thin:
+            self._thin_arrow(kind, name, points, shape, style)
+            return
+        style.butt_start, style.butt_end = pointed
+        self.contours.begin()
+        if rest:
+            self._add_far_path(rest, False, style)
+        self._add_polygons(shape)
+        self._fill_contours(style, True)
+
+    def _thin_arrow(self, kind, name, points, shape, style):
+        """Draw an aliased path of width 1 and fill its heads, each pixel once."""
         surface: Surface = self.surface
         marks: Surface = once(surface)
         self.surface = self.coverage.surface = marks
         try:
-            self.line(places[0], places[1], places[2], places[3], style, False)
-            self._far_outlines(shape[: sum(pointed)], True, True, True, style)
+            if kind == 0:
+                self.path(name, points, False, style)
+            elif kind == 1:
+                self.curve(points, False, style)
+            else:
+                self.smooth(points, False, style)
+            self._far_outlines(shape, True, True, True, style)
         finally:
             self.surface = self.coverage.surface = surface
         painted(surface, marks, surface.top, surface.bottom)
+
+    def _chords(self, kind, numbers, style):
+        """The points of a path, or those along a curve, x and y in turn."""
+        values = numbers.exact
+        if values is None:
+            values = [numbers.values[i] for i in range(2 * numbers.count)]
+        if kind == 0 or numbers.count == 1:
+            return values
+        controls = outline.through(clip.pairs(values), False) if kind == 2 else outline.chain(values)
+        if numbers.exact is not None:
+            return outline.curve(controls)
+        path: Path = Path(1, 0, True)
+        memory = bytearray(array("d", controls))
+        path.pieces(doubles(memory, 0), len(controls) // 6)
+        return [int(path.points[i]) for i in range(2 * path.count)]
 
     def segments(self, numbers, style, dda):
         """Draw the line of each row."""
@@ -343,8 +375,11 @@ class Painter:
         stroke: Stroke = Stroke(self.contours, style.width, style.join, pixels, circle)
         cap: cython.int = _BUTT if closed and style.cap == _SQUARE else style.cap
         if style.dash is None or count == 1 or (distance == 0 and is_endless(points, count, closed, style.dash[0])):
-            stroke.path(points, count, closed, cap, cap)
+            start: cython.int = _BUTT if style.butt_start else cap
+            stroke.path(points, count, closed, start, _BUTT if style.butt_end else cap)
             return
+        if cap == _SQUARE and (style.butt_start or style.butt_end):
+            cap = _BUTT
         if closed:
             points[2 * count] = points[0]
             points[2 * count + 1] = points[1]
@@ -354,10 +389,7 @@ class Painter:
     def curve(self, points, closed, style):
         """Draw the Bézier curves that these control points have."""
         numbers: Numbers = points_of("points", points, 256)
-        if numbers.count and numbers.count != 3 and numbers.count % 3 != 1:
-            raise ValueError(
-                f"points must be 3, of a quadratic curve, or 4, 7, 10, ... of cubic ones, not {numbers.count}"
-            )
+        _check_controls(numbers.count)
         if numbers.count < 2:
             self.path("points", points, False, style)
         elif numbers.exact is not None:
@@ -719,6 +751,11 @@ class Painter:
     def _far_path(self, points, closed, style):
         """Draw the stroke of a path between points at any distance, in 256ths."""
         self.contours.begin()
+        self._add_far_path(points, closed, style)
+        self._fill_contours(style, True)
+
+    def _add_far_path(self, points, closed, style):
+        """Add the contours of that stroke."""
         period = sum(style.dash) if style.dash is not None else 1
         # Further than joins and caps reach.
         beyond = 2 * style.width
@@ -727,7 +764,6 @@ class Painter:
         for piece, distance, _ in pieces:
             memory = bytearray(array("q", piece))
             self._add_piece(int64s(memory), len(piece) // 2, closed and is_whole, style, distance % period, False)
-        self._fill_contours(style, True)
 
     def _far_curve(self, controls, closed, style):
         """Draw Bézier curves with control points at any distance."""
@@ -735,13 +771,17 @@ class Painter:
 
     def _far_fill(self, shape, nonzero, style):
         """Fill contours with corners at any distance, in 256ths."""
+        self.contours.begin()
+        self._add_polygons(shape)
+        self._fill_contours(style, nonzero)
+
+    def _add_polygons(self, shape):
+        """Add polygons with corners at any distance, in 256ths."""
         contours: Contours = self.contours
-        contours.begin()
         for contour in shape:
             for x, y in clip.pairs(clip.cut_polygon(contour)):
                 contours.add(x, y, 0, 0)
             contours.close()
-        self._fill_contours(style, nonzero)
 
     def _far_outlines(self, paths, closed, fill, nonzero, style):
         """Draw paths of any size, thin or dashed, or fill what they enclose and draw them thin."""
@@ -792,6 +832,11 @@ class Painter:
             elif style.cap != _BUTT:
                 shape += outline.arc_caps(x, y, r, turns, half, style.cap == _ROUND)
             self._far_fill(shape, True, style)
+
+
+def _check_controls(count):
+    if count and count != 3 and count % 3 != 1:
+        raise ValueError(f"points must be 3, of a quadratic curve, or 4, 7, 10, ... of cubic ones, not {count}")
 
 
 def _in_steps(dash):

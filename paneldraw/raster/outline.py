@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from itertools import groupby, pairwise
 from math import isqrt
+from typing import NamedTuple
 
 from paneldraw.raster.clip import is_outside, pairs
 
@@ -39,22 +40,70 @@ def thick_line(x1: int, y1: int, x2: int, y2: int, width: int, square: bool) -> 
     return [x1 - uy, y1 + ux, x1 + uy, y1 - ux, x2 + uy, y2 - ux, x2 - uy, y2 + ux]
 
 
-def arrow(ends: Box, width: int, square: bool, length: int, pointed: tuple[bool, bool]) -> list[Contour]:
-    """Return a line and the heads at its ends, triangles as broad as long, where the line does not go on in them."""
-    x1, y1, x2, y2 = ends
-    dx, dy = (x2 - x1, y2 - y1) if (x1, y1) != (x2, y2) else (256, 0)
-    whole = isqrt((dx * dx + dy * dy) << 64)
-    ux, uy = (((2 * side * length << 32) + whole) // (2 * whole) for side in (dx, dy))
-    shape = []
-    for (x, y), side, is_pointed in (((x1, y1), -1, pointed[0]), ((x2, y2), 1, pointed[1])):
-        bx, by = x - side * ux, y - side * uy
-        if is_pointed:
-            shape.append([x, y, bx - uy // 2, by + ux // 2, bx + uy // 2, by - ux // 2])
-            x1, y1, x2, y2 = (bx, by, x2, y2) if side < 0 else (x1, y1, bx, by)
-    # Heads that meet leave no line between them.
-    if dx * (x2 - x1) + dy * (y2 - y1) > 0:
-        shape.append(thick_line(x1, y1, x2, y2, width, square))
-    return shape
+def heads(points: Contour, length: int, width: int, pointed: tuple[bool, bool]) -> tuple[list[Contour], Contour]:
+    """Return heads at the start and at the end of a path, triangles as broad as long, and the path that is left.
+
+    A head's base has its middle where the path was `length` away from the tip for the last time; of a path that never
+    was, all of it is in the head. The path goes on into the head by half its `width`, or as far as that is as wide.
+    """
+    path = [point for point, _ in groupby(pairs(points))]
+    inside = min(width // 2, max(length - width, 0))
+    shapes = []
+    begin, end = _Base(path[0], 0, path[0]), _Base(path[-1], len(path), path[-1])
+    if pointed[0]:
+        mirrored = _base(path[::-1], length, inside, 256)
+        begin = mirrored._replace(left=len(path) - mirrored.left)
+        shapes.append(_head(path[0], begin.middle))
+    if pointed[1]:
+        end = _base(path, length, inside, -256)
+        shapes.append(_head(path[-1], end.middle))
+    if begin.left > end.left or (begin.left == end.left and not _is_before(begin.middle, end.middle, path, begin.left)):
+        return shapes, []
+    rest = [begin.inner, begin.middle, *path[begin.left : end.left], end.middle, end.inner]
+    return shapes, [number for point, _ in groupby(rest) for number in point]
+
+
+class _Base(NamedTuple):
+    """A head's base: its middle, how many points of the path lie before it, and where the path ends in the head."""
+
+    middle: Vector
+    left: int
+    inner: Vector
+
+
+def _base(path: list[Vector], length: int, inside: int, back: int) -> _Base:
+    """The base of the head at the end of a path; of one that goes nowhere, `back` in its row."""
+    x, y = path[-1]
+    for i in range(len(path) - 2, -1, -1):
+        (ax, ay), (bx, by) = path[i], path[i + 1]
+        if (ax - x) ** 2 + (ay - y) ** 2 >= length * length:
+            # From b, which is nearer, so far toward a that it is `length` from the tip.
+            dx, dy, px, py = ax - bx, ay - by, bx - x, by - y
+            along, whole = px * dx + py * dy, dx * dx + dy * dy
+            share = isqrt((along * along + whole * (length * length - px * px - py * py)) << 64) - (along << 32)
+            middle = _nearest(bx, by, dx, dy, share, whole << 32)
+            return _Base(middle, i + 1, _nearest(*middle, x - middle[0], y - middle[1], inside, max(length, 1)))
+    dx, dy = (path[0][0] - x, path[0][1] - y) if path[0] != path[-1] else (back, 0)
+    return _Base(_nearest(x, y, dx, dy, length << 32, isqrt((dx * dx + dy * dy) << 64)), 0, (x, y))
+
+
+def _nearest(x: int, y: int, dx: int, dy: int, share: int, whole: int) -> Vector:
+    """The point at a share of the way (dx, dy) from (x, y)."""
+    return x + (2 * dx * share + whole) // (2 * whole), y + (2 * dy * share + whole) // (2 * whole)
+
+
+def _head(tip: Vector, middle: Vector) -> Contour:
+    """The triangle with a tip and the middle of its base."""
+    (x, y), (bx, by) = tip, middle
+    return [x, y, bx - (y - by) // 2, by + (x - bx) // 2, bx + (y - by) // 2, by - (x - bx) // 2]
+
+
+def _is_before(a: Vector, b: Vector, path: list[Vector], i: int) -> bool:
+    """Whether a comes before b on the segment of a path that leads to point i."""
+    if not 0 < i < len(path):
+        return False
+    dx, dy = path[i][0] - path[i - 1][0], path[i][1] - path[i - 1][1]
+    return dx * (b[0] - a[0]) + dy * (b[1] - a[1]) > 0
 
 
 def rounded_box(left: int, top: int, right: int, bottom: int, a: int, b: int) -> Contour:

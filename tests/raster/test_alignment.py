@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from searching import examples
 
 from paneldraw.testing import assert_pattern
 
@@ -102,26 +105,87 @@ def test_arrows_as_a_picture(package):
     )
 
 
-@given(st.tuples(*[st.integers(0, 31 * 256)] * 4), st.integers(256, 1280), st.sampled_from(["end", "start", "both"]))
-def test_a_wide_arrow_is_the_union_of_a_line_and_triangles(package, ends, width, heads):
-    """So it has all of the triangles, and nothing but those and the line."""
-    x1, y1, x2, y2 = (number / 256 for number in ends)
-    width /= 256
-    fb, line = (package.Framebuffer(32, 32, 8) for _ in range(2))
-    fb.arrow(x1, y1, x2, y2, 100, heads=heads, width=width, head=8, antialias=package.Supersample(4), op="xor")
-    line.line(x1, y1, x2, y2, 100, width=width, antialias=package.Supersample(4))
-    long = np.hypot(x2 - x1, y2 - y1)
-    u = np.array([x2 - x1, y2 - y1]) / long if long else np.array([1, 0])
-    for tip, side, name in ((np.array([x1, y1]), -1, "start"), (np.array([x2, y2]), 1, "end")):
-        if heads in (name, "both"):
-            base = tip - 8 * side * u
-            corners = [tip, base + 3.9 * np.array([-u[1], u[0]]), base - 3.9 * np.array([-u[1], u[0]])]
-            inner = package.Framebuffer(32, 32, 8)
-            mean = sum(corners) / 3
-            inner.poly(0, 0, np.array([mean + 0.95 * (c - mean) for c in corners]), 100, True, edges="shared")
-            assert fb.pixels[inner.pixels > 0].all()
-            line.poly(0, 0, np.array([mean + 1.8 * (c - mean) for c in corners]), 100, True, op="max")
-    assert not fb.pixels[line.pixels == 0].any()
+def signed(corners, x, y):
+    """How far points lie outside of a triangle, along the normal of its nearest side's line; inside it is negative."""
+    area = sum(a[0] * b[1] - a[1] * b[0] for a, b in zip(corners, np.roll(corners, -1, axis=0), strict=True))
+    out = np.full(np.broadcast_shapes(x.shape, y.shape), -np.inf)
+    for a, b in zip(corners, np.roll(corners, -1, axis=0), strict=True):
+        along = (b - a) * np.sign(area) / max(np.hypot(*(b - a)), 1e-9)
+        out = np.maximum(out, (x - a[0]) * along[1] - (y - a[1]) * along[0])
+    return out
+
+
+def away(path, x, y):
+    """How far points are from a path."""
+    near = np.full(np.broadcast_shapes(x.shape, y.shape), np.inf)
+    for a, b in pairwise([*path, path[-1]]):
+        t = ((x - a[0]) * (b - a)[0] + (y - a[1]) * (b - a)[1]) / max((b - a) @ (b - a), 1e-9)
+        t = np.clip(t, 0, 1)
+        near = np.minimum(near, np.hypot(x - a[0] - t * (b - a)[0], y - a[1] - t * (b - a)[1]))
+    return near
+
+
+def base(path, length):
+    """The middle of the base of the head at the end of a path, and the path to there, by small steps back."""
+    tip = path[-1]
+    fine = np.concatenate([a + np.linspace(0, 1, 4000, endpoint=False)[:, None] * (b - a) for a, b in pairwise(path)])
+    beyond = np.flatnonzero(np.hypot(*(fine - tip).T) >= length)
+    if not beyond.size:
+        along = tip - path[0]
+        return tip - length * (along / np.hypot(*along) if along.any() else np.array([1, 0])), None
+    return fine[beyond[-1]], fine[: beyond[-1] + 1 : 20]
+
+
+corners = st.tuples(st.integers(0, 39 * 256), st.integers(0, 39 * 256)).map(lambda p: np.array(p) / 256)
+
+
+@examples(3)
+@given(st.lists(corners, min_size=2, max_size=4), st.sampled_from([1.5, 2, 3]), st.integers(8, 12), st.booleans())
+def test_an_arrow_is_its_head_and_the_stroke_up_to_there(package, path, width, length, is_line):
+    """Each pixel but those within a 32nd of a pixel of an edge: a head's tip, direction, size, and nothing besides."""
+    fb = package.Framebuffer(40, 40)
+    if is_line:
+        path = path[:2]
+        fb.arrow(*path[0], *path[1], width=width, head=length, cap="round", op="xor")
+    else:
+        fb.polyline(path, heads="end", width=width, head=length, cap="round", join="round", op="xor")
+    y, x = np.ogrid[:40, :40]
+    middle, rest = base(path, length)
+    tip = path[-1]
+    half = (tip - middle)[::-1] * (-0.5, 0.5)
+    out = signed(np.array([tip, middle + half, middle - half]), x, y)
+    if rest is not None:
+        out = np.minimum(out, away(rest, x, y) - width / 2)
+    assert fb.pixels[out < -1 / 32].all()
+    assert not fb.pixels[out > 1 / 32].any()
+
+
+@given(st.sampled_from(["start", "end", "both"]), st.sampled_from(["polyline", "bezier", "curve"]), st.booleans())
+def test_heads_at_either_end_are_those_of_the_path_reversed(package, heads, call, thin):
+    points = [(4, 30), (9, 6), (26, 9), (34, 33)]
+    style = {"width": 1 if thin else 3, "op": "xor"}
+    fb, reverse, plain = (package.Framebuffer(40, 40) for _ in range(3))
+    getattr(fb, call)(points, heads=heads, **style)
+    getattr(reverse, call)(points[::-1], heads={"start": "end", "end": "start"}.get(heads, heads), **style)
+    getattr(plain, call)(points, **style)
+    differing = np.argwhere(fb.pixels != reverse.pixels)
+    assert len(differing) <= (0 if call == "polyline" else 2)
+    for place, name in ((points[0], "start"), (points[-1], "end")):
+        y, x = np.ogrid[:40, :40]
+        around = np.hypot(x - place[0], y - place[1]) < 11
+        assert (fb.pixels != plain.pixels)[around].any() == (heads in (name, "both"))
+        assert fb.pixels[place[1], place[0]] or not thin
+
+
+@pytest.mark.parametrize("call", ["polyline", "bezier", "curve"])
+@pytest.mark.parametrize("width", [1, 2])
+def test_heads_of_paths_that_come_from_afar(package, call, width):
+    near, far = (package.Framebuffer(40, 30) for _ in range(2))
+    for fb, begin in ((near, -600), (far, -3 * 2**40)):
+        points = [(begin, 15), (begin / 3, 15), (0, 15), (30, 15)]
+        getattr(fb, call)(points, heads="both", width=width, head=9)
+    assert (near.pixels == far.pixels).all()
+    assert near.pixels.sum(axis=0)[:20].max() == width
 
 
 @pytest.mark.parametrize(
@@ -133,7 +197,10 @@ def test_a_wide_arrow_is_the_union_of_a_line_and_triangles(package, ends, width,
         ("round_rect", {"x": 1, "y": 1, "w": -3, "h": 3, "r": 1, "corners": 1}, "w must not be negative"),
         ("arrow", {"x1": 1, "y1": 1, "x2": 3, "y2": 3, "head": -1}, "head must not be negative"),
         ("arrow", {"x1": 1, "y1": 1, "x2": 3, "y2": 3, "heads": "none"}, "heads must be one of"),
-        ("arrow", {"x1": 1, "y1": 1, "x2": 3, "y2": 3, "cap": "round"}, "cap must be one of 'square', 'butt'"),
+        ("arrow", {"x1": 1, "y1": 1, "x2": 3, "y2": 3, "cap": "flat"}, "cap must be one of 'butt', 'square', 'round'"),
+        ("polyline", {"points": [1, 1, 3, 3], "heads": "none"}, "heads must be one of"),
+        ("curve", {"points": [1, 1, 3, 3, 5, 1], "heads": "end", "closed": True}, "heads must be None of a path that"),
+        ("bezier", {"points": [1, 1, 3, 3], "heads": "end"}, "points must be 3, of a quadratic"),
         ("arrow", {"x1": float("nan"), "y1": 1, "x2": 3, "y2": 3}, "x1 must be finite"),
     ],
 )
