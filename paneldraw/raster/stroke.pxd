@@ -26,6 +26,11 @@ cdef class Stroke:
     cdef double low, high
 
     cdef object path(self, double *points, Py_ssize_t count, bint closed, int cap, int end_cap)
+    cdef bint _is_smooth(self, double *points, Py_ssize_t i, Py_ssize_t j, double dot, double cross) noexcept
+    cdef object _strip(self, double *points, Py_ssize_t count, Py_ssize_t first, Py_ssize_t last)
+    cdef (double, double) _aside(
+        self, double *points, Py_ssize_t count, Py_ssize_t i, Py_ssize_t first, Py_ssize_t last
+    ) noexcept
     cdef (double, double) _direction(self, double x, double y, double ux, double uy) noexcept
     cdef object _segment(
         self, double x1, double y1, double x2, double y2, (double, double) start, (double, double) end

@@ -145,25 +145,66 @@ class Stroke:
             self._cap(points[0], points[1], -1, 0, cap)
             self._cap(points[0], points[1], 1, 0, end_cap)
             return
+        first: cython.Py_ssize_t = 0
         for i in range(segments + closed):
-            j = 2 * ((i + 1) % count)
-            x1: cython.double = points[2 * (i % count)]
-            y1: cython.double = points[2 * (i % count) + 1]
-            x2: cython.double = points[j]
-            y2: cython.double = points[j + 1]
+            j = (i + 1) % count
             vx: cython.double = ux
             vy: cython.double = uy
-            ux, uy = _unit_vector(points, i % count, j // 2)
-            if i > 0:
-                self._corner(x1, y1, vx, vy, ux, uy)
-            if i < segments:
-                start: tuple[cython.double, cython.double] = self._direction(x1, y1, ux, uy)
-                end: tuple[cython.double, cython.double] = self._direction(x2, y2, ux, uy)
-                self._segment(x1, y1, x2, y2, start, end)
-                if not closed and i == 0:
-                    self._cap(x1, y1, -start[0], -start[1], cap)
-                if not closed and i == segments - 1:
-                    self._cap(x2, y2, end[0], end[1], end_cap)
+            ux, uy = _unit_vector(points, i % count, j)
+            if i > 0 and (i == segments or not self._is_smooth(points, i, j, vx * ux + vy * uy, vx * uy - vy * ux)):
+                self._corner(points[2 * (i % count)], points[2 * (i % count) + 1], vx, vy, ux, uy)
+                self._strip(points, count, first, i)
+                first = i
+            if i < segments and not closed and i == 0:
+                start: tuple[cython.double, cython.double] = self._direction(points[0], points[1], ux, uy)
+                self._cap(points[0], points[1], -start[0], -start[1], cap)
+        if not closed:
+            self._strip(points, count, first, segments)
+            x: cython.double = points[2 * segments]
+            y: cython.double = points[2 * segments + 1]
+            end: tuple[cython.double, cython.double] = self._direction(x, y, ux, uy)
+            self._cap(x, y, end[0], end[1], end_cap)
+
+    def _is_smooth(self, points, i, j, dot, cross):
+        """Whether the segments before and behind point i, the latter to point j, bend so little that they are one strip.
+
+        Then all joins are within a quarter of a 256th of each other, and the inner sides meet within both segments.
+        """
+        if self.around:
+            return True
+        if dot <= 0:
+            return False
+        # The tangent of half the angle.
+        bend: cython.double = abs(cross) / (1 + dot)
+        shorter: cython.double = min(_length(points, i - 1, i), _length(points, i, j))
+        return self.half * bend * bend <= _FLAT and 2 * self.half * bend <= shorter
+
+    def _strip(self, points, count, first, last):
+        """Add what is around the segments from point `first` to point `last` of a path, which is smooth between.
+
+        One shape for all of a curve takes a fifth of the time of a rectangle for every chord.
+        """
+        i: cython.Py_ssize_t
+        for i in range(first, last + 1):
+            dx, dy = self._aside(points, count, i, first, last)
+            self.contours.add(points[2 * (i % count)], points[2 * (i % count) + 1], dx, dy)
+        for i in range(last, first - 1, -1):
+            dx, dy = self._aside(points, count, i, first, last)
+            self.contours.add(points[2 * (i % count)], points[2 * (i % count) + 1], -dx, -dy)
+        self.contours.close()
+
+    def _aside(self, points, count, i, first, last):
+        """From point i of a strip to its left side: square to its ends, halfway between its segments elsewhere."""
+        at: cython.Py_ssize_t = i % count
+        half: cython.double = self.half
+        ux, uy = _unit_vector(points, at, (i + 1) % count) if i < last else _unit_vector(points, (i - 1) % count, at)
+        if self.around:
+            ux, uy = self._direction(points[2 * at], points[2 * at + 1], ux, uy)
+        elif first < i < last:
+            vx, vy = _unit_vector(points, (i - 1) % count, at)
+            half /= 1 + vx * ux + vy * uy
+            ux, uy = ux + vx, uy + vy
+        return uy * half, -ux * half
 
     def _direction(self, x, y, ux, uy):
         """The direction of a path at a point of a segment: that of the segment, or along the circle there."""
