@@ -554,6 +554,7 @@ class Framebuffer:
         c: int | Ink | None = None,
         *,
         closed: bool = False,
+        fill: bool = False,
         width: int | float = 1,
         cap: str = "square",
         join: str = "miter",
@@ -578,6 +579,8 @@ class Framebuffer:
         c : int, optional
         closed : bool, default False
             Whether a line leads from the end back to the beginning, if that is elsewhere.
+        fill : bool, default False
+            Whether to fill what the closed curve encloses, as `poly` does by its even-odd rule.
         width, cap, dash, antialias, op
             As for `line`. An aliased curve of width 1 counts pixels of the dash pattern.
         join : {"miter", "round", "bevel"}
@@ -613,9 +616,9 @@ class Framebuffer:
             return
         style = self.painter.style(c, op, width, antialias, cap, join, dash)
         if heads is not None:
-            self.painter.arrow(1, "points", points, head, _pointed(heads, closed), style)
+            self.painter.arrow(1, "points", points, head, _pointed(heads, closed or fill), style)
         else:
-            self.painter.curve(points, closed, style)
+            self.painter.curve(points, closed or fill, fill, style)
 
     def curve(
         self,
@@ -623,6 +626,7 @@ class Framebuffer:
         c: int | Ink | None = None,
         *,
         closed: bool = False,
+        fill: bool = False,
         width: int | float = 1,
         cap: str = "square",
         join: str = "miter",
@@ -644,6 +648,8 @@ class Framebuffer:
         c : int, optional
         closed : bool, default False
             Whether the curve goes on from the last point to the first.
+        fill : bool, default False
+            As for `bezier`.
         width, cap, join, dash, heads, head, antialias, op
             As for `bezier`.
 
@@ -676,9 +682,9 @@ class Framebuffer:
             return
         style = self.painter.style(c, op, width, antialias, cap, join, dash)
         if heads is not None:
-            self.painter.arrow(2, "points", points, head, _pointed(heads, closed), style)
+            self.painter.arrow(2, "points", points, head, _pointed(heads, closed or fill), style)
         else:
-            self.painter.smooth(points, closed, style)
+            self.painter.smooth(points, closed or fill, fill, style)
 
     def triangle(
         self,
@@ -1765,7 +1771,7 @@ def _restored(kind, width, height, depth, antialias, levels, attributes):
 def _pointed(heads, closed=False):
     """Whether there is a head at the start, and at the end."""
     if closed:
-        raise ValueError("heads must be None of a path that is closed: it has no ends")
+        raise ValueError("heads must be None of a path that is closed or filled: it has no ends")
     ends = choice("heads", heads, _HEADS)
     return ends > 1, ends % 2 == 1
 

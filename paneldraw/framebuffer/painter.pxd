@@ -42,8 +42,8 @@ cdef class Painter:
     cdef object some_corners(
         self, object x, object y, object w, object h, object r, int corners, bint fill, Style style
     )
-    cdef object curve(self, object points, bint closed, Style style)
-    cdef object smooth(self, object points, bint closed, Style style)
+    cdef object curve(self, object points, bint closed, bint fill, Style style)
+    cdef object smooth(self, object points, bint closed, bint fill, Style style)
     cdef object triangle(
         self, object x1, object y1, object x2, object y2, object x3, object y3, bint fill, bint covered, Style style
     )
@@ -75,7 +75,8 @@ cdef class Painter:
     cdef object _add_stroke(
         self, double *points, Py_ssize_t count, bint closed, Style style, double distance, tuple circle
     )
-    cdef object _chain(self, object controls, bint closed, Style style)
+    cdef object _chain(self, object controls, bint closed, bint fill, Style style)
+    cdef object _fill_chain(self, object controls, Path path, Style style)
     cdef Path _ellipse(self, double x, double y, double a, double b, double angle, Style style)
     cdef object _add_ellipse(
         self, double x, double y, double a, double b, double angle, double beyond, Style style
@@ -100,7 +101,7 @@ cdef class Painter:
     cdef object _far_line(self, object ends, Style style, bint dda)
     cdef object _far_thin_path(self, Surface surface, object points, bint closed, object dash, bint dda)
     cdef object _far_path(self, object points, bint closed, Style style)
-    cdef object _far_curve(self, object controls, bint closed, Style style)
+    cdef object _far_curve(self, object controls, bint closed, bint fill, Style style)
     cdef object _add_far_path(self, object points, bint closed, Style style)
     cdef object _add_polygons(self, object shape)
     cdef object _far_fill(self, object shape, bint nonzero, Style style)

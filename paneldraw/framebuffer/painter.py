@@ -149,9 +149,9 @@ class Painter:
             if kind == 0:
                 self.path(name, points, False, style)
             elif kind == 1:
-                self.curve(points, False, style)
+                self.curve(points, False, False, style)
             else:
-                self.smooth(points, False, style)
+                self.smooth(points, False, False, style)
             self._far_outlines(shape, True, True, True, style)
         finally:
             self.surface = self.coverage.surface = surface
@@ -386,22 +386,22 @@ class Painter:
             count += 1
         stroke.dashes(points, count, closed, cap, style.dash, distance)
 
-    def curve(self, points, closed, style):
-        """Draw the Bézier curves that these control points have."""
+    def curve(self, points, closed, fill, style):
+        """Draw the Bézier curves that these control points have, or fill what they enclose."""
         numbers: Numbers = points_of("points", points, 256)
         _check_controls(numbers.count)
         if numbers.count < 2:
             self.path("points", points, False, style)
         elif numbers.exact is not None:
-            self._far_curve(outline.chain(numbers.exact), closed, style)
+            self._far_curve(outline.chain(numbers.exact), closed, fill, style)
         else:
-            self._chain(chain(numbers.values, numbers.count), closed, style)
+            self._chain(chain(numbers.values, numbers.count), closed, fill, style)
 
-    def smooth(self, points, closed, style):
-        """Draw the smooth curve through points."""
+    def smooth(self, points, closed, fill, style):
+        """Draw the smooth curve through points, or fill what it encloses."""
         numbers: Numbers = points_of("points", points, 256)
         if numbers.exact is not None:
-            self._far_curve(outline.through(clip.pairs(numbers.exact), closed), closed, style)
+            self._far_curve(outline.through(clip.pairs(numbers.exact), closed), closed, fill, style)
             return
         memory = bytearray(16 * (numbers.count + 1))
         to: cython.p_double = doubles(memory, 0)
@@ -409,20 +409,42 @@ class Painter:
         if closed and count > 1 and to[0] == to[2 * count - 2] and to[1] == to[2 * count - 1]:
             count -= 1
         if count > 2:
-            self._chain(through(to, count, closed), closed, style)
+            self._chain(through(to, count, closed), closed, fill, style)
         else:
             self.path("points", points, closed, style)
 
-    def _chain(self, controls, closed, style):
-        """Draw the pieces that these control points have, near by."""
+    def _chain(self, controls, closed, fill, style):
+        """Draw the pieces that these control points have, near by, or fill what they enclose."""
         p: cython.p_double = doubles(controls, 0)
         last: cython.Py_ssize_t = len(controls) // 8 - 2
+        if fill:
+            _as_area(style)
         path: Path = self._new_path(style)
-        if style.thin:
+        if fill:
+            self._fill_chain(controls, path, style)
+        elif style.thin:
             walk(self.surface, path, controls, closed, _in_steps(style.dash))
         else:
             path.pieces(p, last // 6)
             self._smooth_path(path, closed, style)
+
+    def _fill_chain(self, controls, path, style):
+        """Fill what pieces enclose and, aliased, draw them with the path of theirs that is there to walk along."""
+        i: cython.Py_ssize_t
+        surface: Surface = self.surface
+        marks: Surface = once(surface) if style.thin else surface
+        area: Path = Path(path.low, path.high, True)
+        area.pieces(doubles(controls, 0), (len(controls) // 8 - 2) // 6)
+        self.contours.begin()
+        for i in range(area.count):
+            self.contours.add(area.points[2 * i], area.points[2 * i + 1], 0, 0)
+        self.contours.close()
+        self.coverage.surface = marks
+        self._fill_contours(style, False)
+        self.coverage.surface = surface
+        if style.thin:
+            walk(marks, path, controls, True, [])
+            painted(surface, marks, surface.top, surface.bottom)
 
     def _new_path(self, style):
         """A path that leaves out what cannot be seen."""
@@ -765,9 +787,14 @@ class Painter:
             memory = bytearray(array("q", piece))
             self._add_piece(int64s(memory), len(piece) // 2, closed and is_whole, style, distance % period, False)
 
-    def _far_curve(self, controls, closed, style):
-        """Draw Bézier curves with control points at any distance."""
-        self._far_outlines([outline.curve(controls)], closed, False, True, style)
+    def _far_curve(self, controls, closed, fill, style):
+        """Draw Bézier curves with control points at any distance, or fill what they enclose."""
+        if fill:
+            _as_area(style)
+        if fill and not style.thin:
+            self._far_fill([outline.curve(controls)], False, style)
+        else:
+            self._far_outlines([outline.curve(controls)], closed, fill, False, style)
 
     def _far_fill(self, shape, nonzero, style):
         """Fill contours with corners at any distance, in 256ths."""
@@ -832,6 +859,14 @@ class Painter:
             elif style.cap != _BUTT:
                 shape += outline.arc_caps(x, y, r, turns, half, style.cap == _ROUND)
             self._far_fill(shape, True, style)
+
+
+@cython.cfunc
+def _as_area(style: Style):
+    """As what is filled, a style has no width of its own: an aliased area covers its outline, one pixel wide."""
+    style.width = 256
+    style.dash = None
+    style.thin = style.antialias is None
 
 
 def _check_controls(count):

@@ -166,7 +166,7 @@ class Stroke:
             self._cap(x, y, end[0], end[1], end_cap)
 
     def _is_smooth(self, points, i, j, dot, cross):
-        """Whether the segments before and behind point i, the latter to point j, bend so little that they are one strip.
+        """Whether the segments before and behind point i, that to point j, bend so little that they are one strip.
 
         Then all joins are within a quarter of a 256th of each other, and the inner sides meet within both segments.
         """

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from random import Random
 from typing import Any
 
-from paneldraw import ConeFilter, Framebuffer, Supersample
+from paneldraw import ConeFilter, Framebuffer, Gradient, Pattern, Supersample
 
 WIDTH, HEIGHT = 61, 37
 DEPTHS = (1, 2, 4, 8)
@@ -145,6 +145,44 @@ def poly(fb: Framebuffer, dice: Dice, c: int, style: dict[str, Any]) -> None:
     fb.poly(dice.within(-9, 9), dice.within(-9, 9), corners, c, fill, rule=rule, width=dice.width(), join=join, **style)
 
 
+def curve(fb: Framebuffer, dice: Dice, c: int, style: dict[str, Any]) -> None:
+    extra = {"join": dice.one_of("miter", "round", "bevel"), "fill": bool(dice.below(2)), "width": dice.width()}
+    if not extra["fill"]:
+        extra |= {"cap": dice.one_of("square", "butt", "round"), "dash": dice.dash()}
+        extra |= {"heads": dice.one_of(None, "end", "both"), "head": dice.size()}
+    if dice.below(2):
+        fb.bezier(dice.points(dice.one_of(3, 4, 7)), c, **extra, **style)
+    else:
+        fb.curve(dice.points(3 + dice.below(4)), c, **extra, **style)
+
+
+def arrow(fb: Framebuffer, dice: Dice, c: int, style: dict[str, Any]) -> None:
+    (x1, y1), (x2, y2) = dice.points(2)
+    heads, head = dice.one_of("start", "end", "both"), dice.one_of(None, dice.size())
+    fb.arrow(x1, y1, x2, y2, c, heads=heads, head=head, width=dice.width(), dash=dice.dash(), **style)
+
+
+def turned(fb: Framebuffer, dice: Dice, c: int, style: dict[str, Any]) -> None:
+    """Draw what is turned, of two radii, aligned, or round at some corners."""
+    ((x, y),) = dice.points(1)
+    w, h, angle, width = dice.size(), dice.size(), dice.within(-360, 360), dice.width()
+    fill, align = bool(dice.below(2)), dice.one_of("inside", "center", "outside")
+    dice.one_of(
+        lambda: fb.rect(x, y, w, h, c, fill, angle=angle, width=width, align=align, **style),
+        lambda: fb.ellipse(x, y, w, h, c, fill, angle=angle, width=width, align=align, **style),
+        lambda: fb.arc(x, y, w, angle, angle + 100, c, yr=h, width=width, **style),
+        lambda: fb.round_rect(x, y, w, h, width, c, fill, corners=dice.below(16), width=width, align=align, **style),
+    )()
+
+
+def inked(fb: Framebuffer, dice: Dice, c: int, style: dict[str, Any]) -> None:
+    """Draw with patterns and gradients, and fill an area."""
+    ((x, y), (x2, y2)) = dice.points(2)
+    ink = dice.one_of(Pattern.bricks.at(x, y), Gradient((x, y), (x2, y2)), Gradient.radial((x, y), 1 + dice.size()))
+    fb.ellipse(30, 18, dice.size(), dice.size(), ink, bool(dice.below(2)), width=dice.width(), **style)
+    fb.flood_fill(dice.within(0, 60), dice.within(0, 36), dice.one_of(c, ink), op=style["op"])
+
+
 def small(fb: Framebuffer, dice: Dice, c: int, style: dict[str, Any]) -> None:
     """Draw what knows no anti-aliasing: pixels, straight runs, text, and pixels that are moved."""
     op = style["op"]
@@ -172,6 +210,10 @@ KINDS: tuple[Draw, ...] = (
     sector,
     triangle,
     poly,
+    curve,
+    arrow,
+    turned,
+    inked,
 )
 
 

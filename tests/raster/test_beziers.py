@@ -211,3 +211,28 @@ def test_a_wrong_number_of_points_is_named(package, count):
     with pytest.raises(ValueError, match=f"points must be 3, of a quadratic curve, .* not {count}"):
         fb.bezier([(k, k) for k in range(count)])
     assert not fb.pixels.any()
+
+
+# -- Filled
+
+
+@given(
+    st.lists(st.tuples(st.integers(-5, 28), st.integers(-5, 24)), min_size=3, max_size=6, unique=True),
+    st.sampled_from(["bezier", "curve"]),
+    st.sampled_from([None, 4]),
+    st.sampled_from([1, 3]),
+)
+def test_a_filled_curve_is_what_it_encloses_and_aliased_its_outline_too(package, points, call, n, width):
+    """Against a polygon along the curve; of 16 points in a pixel two may lie on it, or where both cross it."""
+    fb, outline, area = (package.Framebuffer(24, 20, 8) for _ in range(3))
+    smooth = n and package.Supersample(n)
+    if call == "bezier":
+        points = points[:3] if len(points) < 4 else points[:4]
+    assume(np.linalg.matrix_rank(np.subtract(points, points[0])) == 2)
+    getattr(fb, call)(points, 16, fill=True, width=width, antialias=smooth, op="xor")
+    area.poly(0, 0, of(call, points, True)[::20], 16, fill=True, edges="shared", antialias=smooth)
+    if n is None:
+        getattr(outline, call)(points, 16, closed=True)
+        assert (fb.pixels[outline.pixels > 0] == 16).all()
+        fb.pixels[outline.pixels > 0] = area.pixels[outline.pixels > 0]
+    assert (abs(fb.pixels.astype(int) - area.pixels) <= (2 if n else 0)).all()
