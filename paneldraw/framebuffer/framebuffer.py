@@ -27,9 +27,9 @@ from cython.cimports.paneldraw.raster.surface import OVER, Surface
 
 from paneldraw._signatures import SignatureOfInit
 from paneldraw.framebuffer import pictures
-from paneldraw.framebuffer.alignment import aligned_box, aligned_radius, outward
+from paneldraw.framebuffer.alignment import ALIGNMENTS, aligned_box, aligned_radius, outward
 from paneldraw.framebuffer.angles import sweep
-from paneldraw.framebuffer.arguments import LARGEST, check_antialias, choice, in_turn, real, size, whole
+from paneldraw.framebuffer.arguments import LARGEST, check_antialias, choice, in_turn, line_width, real, size, whole
 from paneldraw.framebuffer.inks import Ink, covered_rows
 from paneldraw.framebuffer.scaling import check_fit, checked_size
 from paneldraw.raster.surface import OPS
@@ -203,12 +203,10 @@ class Framebuffer:
         del given["self"]
         ink, op = given.pop("c"), given.pop("op", "over")
         code: cython.int = operation(op)
-        mine: Surface = self.surface
-        shape = Framebuffer(mine.width, mine.height, 8, antialias=self.painter.antialias)
-        shape.surface.set_window(mine.left, mine.top, mine.right, mine.bottom)
+        shape = self._blank()
         if name == "flood_fill":
             if given["border"] is not None:
-                level(mine, given["border"])
+                level(self.surface, given["border"])
             shape.pixels[...] = self.pixels
             result = shape.flood_fill(c=255, op="xor", **given)
             cover = np.where(shape.pixels == self.pixels, np.uint8(0), np.uint8(255))
@@ -218,14 +216,50 @@ class Framebuffer:
         if code == OVER and given.get("inverse"):
             # The characters are dark.
             getattr(self, name)(c=0, **given)
+        self._cover(cover, ink, op)
+        return result
+
+    def _aligned(self, name, given):
+        """Draw the part of a twice as wide outline that is inside of a polygon, or outside; or fill it as far as that.
+
+        It is taken pixel by pixel, so it is exact but for pixels that more than one side of the outline goes through.
+        """
+        del given["self"]
+        c, op, fill, width = (given.pop(name) for name in ("c", "op", "fill", "width"))
+        inside = choice("align", given.pop("align"), ALIGNMENTS) == ALIGNMENTS["inside"]
+        line_width(width)
+        operation(op)
+        area, band = self._blank(), self._blank()
+        getattr(area, name)(c=255, fill=True, **given)
+        getattr(band, name)(c=255, width=2 * width, **given)
+        if inside:
+            cover = area.pixels if fill else np.minimum(area.pixels, band.pixels)
+        else:
+            cover = np.maximum(area.pixels, band.pixels)
+            cover = cover if fill else cover - area.pixels
+        self._cover(cover, c if _is_ink(c) else level(self.surface, c), op)
+
+    def _blank(self):
+        """A framebuffer of 8 bits a pixel, as large and clipped alike, to find on what a shape covers."""
+        mine: Surface = self.surface
+        shape = Framebuffer(mine.width, mine.height, 8, antialias=self.painter.antialias)
+        shape.surface.set_window(mine.left, mine.top, mine.right, mine.bottom)
+        return shape
+
+    def _cover(self, cover, c, op):
+        """Paint pixels with a level or an ink as far as they are covered, in 255ths."""
+        mine: Surface = self.surface
         top, bottom = covered_rows(cover)
-        if top < bottom:
-            levels, opacity = ink.levels((mine.left, top, mine.right, bottom), mine.max_level)
-            cover = cover[top:bottom, mine.left : mine.right]
+        if top >= bottom:
+            return
+        cover = cover[top:bottom, mine.left : mine.right]
+        if _is_ink(c):
+            levels, opacity = c.levels((mine.left, top, mine.right, bottom), mine.max_level)
             if opacity is not None:
                 cover = np.rint(cover * (opacity / 255)).astype(np.uint8)
-            copy_levels(mine, levels, cover, mine.left, top, -1, None, op)
-        return result
+        else:
+            levels = np.full(cover.shape, c, np.uint8)
+        copy_levels(mine, levels, cover, mine.left, top, -1, None, op)
 
     # -- Points and lines
 
@@ -698,6 +732,7 @@ class Framebuffer:
         fill: bool = False,
         *,
         width: int | float = 1,
+        align: str = "center",
         join: str = "miter",
         dash: Iterable[int | float] | None = None,
         edges: str = "covered",
@@ -710,7 +745,7 @@ class Framebuffer:
         ----------
         x1, y1, x2, y2, x3, y3 : int or float
             The corners.
-        c, fill, width, join, dash, edges, antialias, op
+        c, fill, width, align, join, dash, edges, antialias, op
             As for `poly`.
 
         Raises
@@ -732,6 +767,9 @@ class Framebuffer:
         if _is_ink(c):
             self._inked("triangle", locals())
             return
+        if not is_word(align, "center"):
+            self._aligned("triangle", locals())
+            return
         style = self.painter.style(c, op, width, antialias, "square", join, dash)
         covered = 1 if is_word(edges, "covered") else choice("edges", edges, _EDGES)
         self.painter.triangle(x1, y1, x2, y2, x3, y3, fill, covered, style)
@@ -747,6 +785,7 @@ class Framebuffer:
         rule: str = "even-odd",
         edges: str = "covered",
         width: int | float = 1,
+        align: str = "center",
         join: str = "miter",
         dash: Iterable[int | float] | None = None,
         antialias: AntialiasOrDefault = ...,
@@ -773,6 +812,10 @@ class Framebuffer:
             Whether an aliased filled polygon is at least its outline, or shares no pixel with a neighbor.
         width, join, dash
             As for `polyline`; of the outline that is drawn without `fill`.
+        align : {"center", "inside", "outside"}
+            Where the outline lies: half of it on either side of the edges; or all of it inside or outside of what the
+            polygon fills, exact but for pixels that more than one side of the outline goes through. Filled, it ends
+            where that does.
         antialias, op
             As for `line`.
 
@@ -794,6 +837,9 @@ class Framebuffer:
         """
         if _is_ink(c):
             self._inked("poly", locals())
+            return
+        if not is_word(align, "center"):
+            self._aligned("poly", locals())
             return
         nonzero = 0 if is_word(rule, "even-odd") else choice("rule", rule, _RULES)
         covered = 1 if is_word(edges, "covered") else choice("edges", edges, _EDGES)

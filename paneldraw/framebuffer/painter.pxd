@@ -111,3 +111,5 @@ cdef class Painter:
     cdef object _far_turn(
         self, object x, object y, object r, object start, object swept, bint is_sector, bint fill, Style style
     )
+
+cdef object _as_area(Style style)

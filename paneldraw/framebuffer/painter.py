@@ -861,8 +861,7 @@ class Painter:
             self._far_fill(shape, True, style)
 
 
-@cython.cfunc
-def _as_area(style: Style):
+def _as_area(style):
     """As what is filled, a style has no width of its own: an aliased area covers its outline, one pixel wide."""
     style.width = 256
     style.dash = None

@@ -18,6 +18,7 @@ SHAPES = {
     "circle": (16, 15, 9),
     "ellipse": (16, 15, 11, 7),
 }
+POLYGONS = {"triangle": (4, 24, 15, 3, 28, 20), "poly": (1, 1, [4, 22, 9, 4, 15, 14, 27, 3, 20, 24])}
 
 
 def drawn(package, name, n, *arguments, **options):
@@ -50,6 +51,45 @@ def test_of_width_1_inside_is_the_outline_itself(package, name, n):
 def test_what_is_wider_than_the_shape_fills_it(package, name):
     for n in (None, 4):
         assert (drawn(package, name, n, width=99, align="inside") == drawn(package, name, n, True)).all()
+
+
+@pytest.mark.parametrize("name", POLYGONS)
+@pytest.mark.parametrize("n", [None, 4])
+@given(st.sampled_from([1, 2, 3.5]), st.sampled_from(["miter", "round", "bevel"]), st.sampled_from([None, (4, 2)]))
+def test_polygons_have_the_half_of_a_wider_outline_that_is_inside_or_outside(package, name, n, width, join, dash):
+    """Levels are counts of 16 points, or all; a count is off by one at most where two edges are in a pixel."""
+    fbs = [package.Framebuffer(32, 30, 8, antialias=n and package.Supersample(n)) for _ in range(6)]
+    full, band, inside, outside, within, around = fbs
+    shape, style = POLYGONS[name], {"join": join, "dash": dash}
+    for fb, options in (
+        (full, {"fill": True}),
+        (band, {"width": 2 * width, **style}),
+        (inside, {"width": width, "align": "inside", "op": "xor", **style}),
+        (outside, {"width": width, "align": "outside", "op": "add", **style}),
+        (within, {"width": width, "align": "inside", "fill": True, **style}),
+        (around, {"width": width, "align": "outside", "fill": True, **style}),
+    ):
+        getattr(fb, name)(*shape, 16, **options)
+    full, band, inside, outside, within, around = (fb.pixels.astype(int) for fb in fbs)
+    assert (inside <= full).all()
+    assert (full + outside == around).all()
+    assert (within == full).all()
+    assert (inside == np.minimum(full, band)).all()
+    assert (around == np.maximum(full, band)).all()
+    if not dash and n:
+        whole = (full == 0) | (full == 16) | (band == 16)
+        assert (inside + outside == band)[whole].all()
+
+
+@pytest.mark.parametrize("name", POLYGONS)
+def test_an_aligned_polygon_with_an_ink(package, name):
+    plain, inked = package.Framebuffer(32, 30), package.Framebuffer(32, 30)
+    with plain.clip(3, 3, 20, 20), inked.clip(3, 3, 20, 20):
+        getattr(plain, name)(*POLYGONS[name], width=4, align="inside")
+        getattr(inked, name)(*POLYGONS[name], package.Pattern.checker, width=4, align="inside")
+    y, x = np.ogrid[:30, :32]
+    assert plain.pixels.any()
+    assert (inked.pixels == np.where((x + y) % 2, 0, plain.pixels)).all()
 
 
 def test_a_rectangle_outside_is_the_larger_one(package):
@@ -192,6 +232,8 @@ def test_heads_of_paths_that_come_from_afar(package, call, width):
     ("call", "arguments", "message"),
     [
         ("rect", {"x": 1, "y": 1, "w": 3, "h": 3, "align": "left"}, "align must be one of 'center'"),
+        ("triangle", {"x1": 1, "y1": 1, "x2": 3, "y2": 9, "x3": 5, "y3": 1, "align": "left"}, "align must be one of"),
+        ("poly", {"x": 1, "y": 1, "coords": [0, 0, 3, 9, 5, 1], "align": "inside", "width": 0}, "width must be"),
         ("circle", {"x": 1, "y": 1, "r": -1, "align": "inside"}, "r must not be negative"),
         ("round_rect", {"x": 1, "y": 1, "w": 3, "h": 3, "r": 1, "corners": 16}, "corners must be from 0 to 15"),
         ("round_rect", {"x": 1, "y": 1, "w": -3, "h": 3, "r": 1, "corners": 1}, "w must not be negative"),
