@@ -24,7 +24,9 @@ def once(surface):
 
     It is the surface itself, if its operation may be repeated on a pixel, else a scratch surface of the same window.
     """
-    return scratch(surface) if surface.op == XOR or surface.op == ADD else surface
+    if surface.op == XOR or surface.op == ADD:
+        return scratch(surface)
+    return surface
 
 
 def scratch(surface):
