@@ -25,9 +25,6 @@ if TYPE_CHECKING:
 
 Steps = Literal["bayer", "blue-noise"]
 
-#: Beyond it, where a pattern begins is all the same.
-_FAR = 1 << 40
-
 
 class Ink(ABC):
     """A level for every pixel of a framebuffer, counted from its pixel (0, 0)."""
@@ -101,8 +98,8 @@ class Pattern(Ink):
         from paneldraw.framebuffer.sprites import Sprite  # which draws on framebuffers
 
         self._sprite = picture if isinstance(picture, Sprite) else Sprite(picture)
-        x, y = (min(max(whole("origin", number), -_FAR), _FAR) for number in _place("origin", origin))
-        self._origin = x, y
+        x, y = (whole("origin", number) for number in _place("origin", origin))
+        self._origin = x % self._sprite.width, y % self._sprite.height
         self._tiles: dict[int, Levels] = {}
 
     def at(self, x: int | float, y: int | float) -> Pattern:

@@ -152,7 +152,9 @@ class Painter:
                 self.curve(points, False, False, style)
             else:
                 self.smooth(points, False, False, style)
-            self._far_outlines(shape, True, True, True, style)
+            for triangle in shape:
+                pixels = [number / 256 if abs(number) < FAR else number >> 8 for number in triangle]
+                self.polygon(pixels, True, True, True, style)
         finally:
             self.surface = self.coverage.surface = surface
         painted(surface, marks, surface.top, surface.bottom)

@@ -28,7 +28,7 @@ WIDTH, HEIGHT = 128, 64
 #: The calls of a framebuffer that statements name, after "", "smooth_" or "cone_" for how they are anti-aliased.
 CALLS = (
     *("pixel", "hline", "vline", "line", "lines", "polyline", "rect", "round_rect", "circle", "arc", "sector"),
-    *("bezier", "flood_fill"),
+    *("arrow", "bezier", "flood_fill"),
     *("triangle", "poly", "fill", "text", "image", "blit", "scroll"),
 )
 
@@ -86,7 +86,17 @@ def opencv() -> Names:
 
     cv2.setNumThreads(1)
     canvas = np.zeros((HEIGHT, WIDTH), np.uint8)
-    shapes = ("line", "polylines", "rectangle", "circle", "ellipse", "fillPoly", "fillConvexPoly", "floodFill")
+    shapes = (
+        "line",
+        "polylines",
+        "rectangle",
+        "circle",
+        "ellipse",
+        "fillPoly",
+        "fillConvexPoly",
+        "floodFill",
+        "arrowedLine",
+    )
     return {
         **{name: getattr(cv2, name) for name in (*shapes, "putText", "copyTo", "threshold")},
         "canvas": canvas,

@@ -11,6 +11,8 @@ import numpy as np
 from canvases import HEIGHT, WIDTH
 from measure import Against, Contest, Names, Row
 
+from paneldraw import Gradient, Pattern
+
 N = 200
 SMALL, LARGE = 12, 20
 CORNER = 4
@@ -159,6 +161,30 @@ def aliased() -> list[Row]:
                 Against("pygame", "for points in point_curves: gfx_bezier(wide, points, 32, white)", how="gfxdraw"),
                 Against("Skia", "for one in skia_curves: drawPath(one, outline)"),
             ),
+        ),
+        Row(
+            "filled cubic curve",
+            N,
+            "for table in curves: bezier(table, fill=True)",
+            (Against("Skia", "for one in skia_curves: drawPath(one, filled)"),),
+        ),
+        Row(
+            "arrow",
+            N,
+            "for x1, y1, x2, y2 in boxes: arrow(x1, y1, x2, y2)",
+            (Against("OpenCV", CORNERS + "arrowedLine(canvas, p, q, 255)"),),
+        ),
+        Row(
+            "rect, filled with a pattern",
+            N,
+            RECTS + "rect(x, y, w, h, checker, True)",
+            (Against("Skia", "for one in skia_rects: drawRect(one, checkered)"),),
+        ),
+        Row(
+            "rect, filled with a gradient",
+            N,
+            RECTS + "rect(x, y, w, h, shades, True)",
+            (Against("Skia", "for one in skia_rects: drawRect(one, shaded)"),),
         ),
         Row(
             "flood fill, all of it",
@@ -315,6 +341,8 @@ def shapes() -> Names:
         "turns": [(start, start + sweep) for start, sweep in turns],
         "triangles": flat(lists["triangles"]),
         **{name: [np.array(one) for one in lists[name]] for name in ("polygons", "regular", "paths", "curves")},
+        "checker": Pattern.checker,
+        "shades": Gradient((0, 0), (WIDTH, 0)),
         "SMALL": SMALL,
         "LARGE": LARGE,
         "RADIUS": LARGE + 0.5,
@@ -410,7 +438,13 @@ def skia() -> Names:
         made: object = library.Rect.MakeXYWH(64.5 - r, 32.5 - r, 2 * r, 2 * r)
         return made
 
+    tile = library.Image.fromarray(np.array([[[255] * 4, [0] * 4], [[0] * 4, [255] * 4]], np.uint8))
+    repeated = tile.makeShader(library.TileMode.kRepeat, library.TileMode.kRepeat, library.SamplingOptions())
+    ends = [library.Point(0, 0), library.Point(WIDTH, 0)]
+    shades = library.GradientShader.MakeLinear(ends, [library.ColorBLACK, library.ColorWHITE])
     return names | {
+        "checkered": library.Paint(Shader=repeated),
+        "shaded": library.Paint(Shader=shades, Dither=True),
         "skia_rects": [library.Rect.MakeXYWH(x, y, w, h) for x, y, w, h in made["rects"]],
         "outlines": [library.Rect.MakeXYWH(x + 0.5, y + 0.5, w - 1, h - 1) for x, y, w, h in made["rects"]],
         "outline": library.Paint(Color=library.ColorWHITE, Style=library.Paint.kStroke_Style, StrokeWidth=1),
