@@ -196,6 +196,23 @@ def test_a_view_lies_within(package, part):
         package.Framebuffer(10, 8).view(*part)
 
 
+@given(st.integers(-9, 9), sizes, sizes, st.sampled_from([1, 4]))
+def test_turned_it_is_a_picture_of_its_own(package, quarters, width, height, depth):
+    fb = noise(package, 12, 11, depth)
+    view = fb.view(2, 1, width, height)
+    turned, wanted = view.turned(quarters), view.pixels.copy()
+    for _ in range(quarters % 4):
+        wanted = wanted[::-1].T
+    assert turned.depth == depth
+    assert (turned.pixels == wanted).all()
+    assert turned.turned(-quarters) == view
+    turned.clear()
+    assert not turned.pixels.any()
+    assert fb == noise(package, 12, 11, depth)
+    with pytest.raises(TypeError, match="quarters must be a whole number"):
+        view.turned(0.5)
+
+
 @pytest.mark.parametrize(("size", "name"), [((-1, 2), "w"), ((2, -1), "h")])
 def test_a_clip_has_no_negative_size(package, size, name):
     with pytest.raises(ValueError, match=f"^{name} must not be negative"):

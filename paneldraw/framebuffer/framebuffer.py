@@ -1710,6 +1710,27 @@ class Framebuffer:
         """
         return _restored(*self.__reduce__()[1])
 
+    def turned(self, quarters: SupportsIndex = 1) -> Framebuffer:
+        """Return a framebuffer of its own with the picture turned by quarter turns clockwise, as to `blit` it.
+
+        Examples
+        --------
+        >>> from paneldraw import Framebuffer
+        >>> fb = Framebuffer(5, 2)
+        >>> fb.hline(0, 0, 4)
+        >>> print(fb.turned())
+        .#
+        .#
+        .#
+        .#
+        ..
+        """
+        levels = np.rot90(self.pixels, -size("quarters", quarters))
+        height, width = levels.shape
+        other = Framebuffer(width, height, self.depth, antialias=self.painter.antialias)
+        other.pixels[...] = levels
+        return other
+
     def __reduce__(self) -> tuple[Any, ...]:
         attributes = {name: value for name, value in getattr(self, "__dict__", {}).items() if name not in _OWN}
         picture = (self.width, self.height, self.depth, self.painter.antialias, self.pixels.tobytes())

@@ -182,7 +182,7 @@ class Stroke:
     def _strip(self, points, count, first, last):
         """Add what is around the segments from point `first` to point `last` of a path, which is smooth between.
 
-        One shape for all of a curve takes a fifth of the time of a rectangle for every chord.
+        One shape for all of a curve, and not a rectangle for every chord: 2.4 times as fast, 7 times if filtered.
         """
         i: cython.Py_ssize_t
         for i in range(first, last + 1):
