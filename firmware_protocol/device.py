@@ -9,6 +9,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any, Protocol
 
+from firmware_protocol.cycle import TICKS
+from firmware_protocol.cycle import Store as Kept
 from firmware_protocol.frames import DELIMITER, Frame, FrameDecoder
 from firmware_protocol.messages import (
     BASE_BAUDRATE,
@@ -18,10 +20,12 @@ from firmware_protocol.messages import (
     Baud,
     Boot,
     Byte,
+    Cycle,
     Fault,
     Feature,
     Hello,
     HelloReply,
+    Kind,
     Message,
     Nak,
     NakReason,
@@ -29,6 +33,7 @@ from firmware_protocol.messages import (
     Read,
     Reset,
     Status,
+    Store,
     Write,
     decode,
     encode,
@@ -176,6 +181,7 @@ class Device:
         self._fault = Fault.NONE
         self._nak_armed = False
         self._features = 0
+        self._store = Kept(self.profile.store, self.profile.repeats)
         self._quiet_since = self.clock()
         self._revert_at: float | None = None
         if self.profile.reset_line:
@@ -202,11 +208,13 @@ class Device:
         self._doubt()
 
     def tick(self) -> None:
-        """Let time pass: look after the panel when nothing comes, go back to 115 200 when a rate does not work."""
+        """Let time pass: write the next sub-picture, look after the panel, go back to 115 200 at a rate in vain."""
         now = self.clock()
+        if self._store.due(self._ticks):
+            self._take_turn()
         if now - self._quiet_since >= QUIET:
             self._quiet_since = now
-            if self._features & Feature.WATCH and not self._fault:
+            if self._features & Feature.WATCH and not self._fault and not self._store.on:
                 self._fail(self._transfer(b""))
         if self._revert_at is not None and now >= self._revert_at:
             self._revert_at = None
@@ -257,6 +265,7 @@ class Device:
         return [Nak(self._expected, reason)]
 
     def _greet(self, hello: Hello) -> Message:
+        self._end_cycle()
         version = min(hello.newest, self.profile.newest)
         if version < max(hello.oldest, self.profile.oldest):
             version = 0
@@ -296,12 +305,33 @@ class Device:
         seen = self.counters
         return Status(token, self._expected, self._fault, self.boot, seen.damaged, seen.overflows, seen.line_errors)
 
+    @property
+    def _ticks(self) -> int:
+        return round(self.clock() * TICKS) & 0xFFFF
+
+    def _take_turn(self) -> None:
+        """Write the next sub-picture; a fault ends the cycle."""
+        runs = self._store.take(self._ticks)
+        fault = self._put_out(runs) if runs else self._transfer(b"")
+        self._fail(fault)
+        self._store.on = self._store.on and not fault
+
+    def _end_cycle(self) -> None:
+        """Write what is left of a cycle, so that the panel shows the first sub-picture."""
+        while self._store.within:
+            self._take_turn()
+        self._store.on = False
+
     def _execute(self, frame: Frame) -> None:
+        if frame.kind != Kind.BAUD:
+            self._end_cycle()
+        if frame.kind in (Kind.STORE, Kind.CYCLE) and not self._features & Feature.CYCLE:
+            self._fail(Fault.UNKNOWN_KIND)
+            return
         try:
             message = decode(frame)
         except ValueError:
-            known = frame.kind in (0x10, 0x11, 0x12, 0x13)
-            self._fail(Fault.MALFORMED if known else Fault.UNKNOWN_KIND)
+            self._fail(Fault.MALFORMED if frame.kind in set(Kind) else Fault.UNKNOWN_KIND)
             return
         match message:
             case Reset(pulse=pulse):
@@ -312,6 +342,17 @@ class Device:
                 self._change_rate(rate)
             case Write(payload=payload, end=end) if not self._fault:
                 self._write(payload, end)
+            case Store() | Cycle() if not self._fault:
+                self._cycle(message)
+
+    def _cycle(self, message: Store | Cycle) -> None:
+        try:
+            if isinstance(message, Store):
+                self._store.put(message.offset, message.content)
+            elif message.count:
+                self._store.begin(message.period, message.count, self._ticks)
+        except ValueError:
+            self._fail(Fault.MALFORMED)
 
     def _change_rate(self, rate: int) -> None:
         if rate not in self.profile.bauds:
@@ -327,11 +368,16 @@ class Device:
         except ValueError:
             self._fail(Fault.MALFORMED)
             return
+        self._fail(self._put_out(runs))
+        self.pictures += end and not self._fault
+
+    def _put_out(self, runs: list[tuple[bool, bytes]]) -> Fault:
+        """Write runs to the panel, up to the first that it does not take."""
         for is_data, content in runs:
-            self._fail(self._transfer(self._transaction(is_data, content)))
-            if self._fault:
-                return
-        self.pictures += end
+            fault = self._transfer(self._transaction(is_data, content))
+            if fault:
+                return fault
+        return Fault.NONE
 
     def _transaction(self, is_data: bool, content: bytes) -> bytes:
         if is_data:
@@ -372,5 +418,6 @@ UNO = HelloReply(
     bauds=(500_000, 1_000_000, 250_000, 115_200),
     controller="ssd1306",
     firmware="paneldraw reference 1.0",
-    features=Feature.WATCH | Feature.READ,
+    features=Feature.WATCH | Feature.READ | Feature.CYCLE,
+    store=760,
 )

@@ -26,6 +26,8 @@ class Kind(IntEnum):
     WRITE_END = 0x11
     BAUD = 0x12
     RESET = 0x13
+    STORE = 0x14
+    CYCLE = 0x15
     HELLO_REPLY = 0x81
     STATUS = 0x82
     BOOT = 0x83
@@ -39,10 +41,11 @@ class Feature(IntFlag):
 
     WATCH = 0x0001
     READ = 0x0002
+    CYCLE = 0x0004
 
 
 #: What this package knows to do as a host.
-HOST_FEATURES = Feature.WATCH | Feature.READ
+HOST_FEATURES = Feature.WATCH | Feature.READ | Feature.CYCLE
 
 
 class Fault(IntEnum):
@@ -133,6 +136,27 @@ class Reset:
 
 
 @dataclass(frozen=True, slots=True)
+class Store:
+    """Host: put bytes into the store, from ``offset`` on."""
+
+    seq: int
+    offset: int
+    content: bytes
+
+
+@dataclass(frozen=True, slots=True)
+class Cycle:
+    """Host: write the first ``count`` sub-pictures of the store in turn, each ``period`` ticks of 4 us after the last.
+
+    None with a ``count`` of 0: then it ends a cycle, as every sequenced message but BAUD does.
+    """
+
+    seq: int
+    period: int = 0
+    count: int = 0
+
+
+@dataclass(frozen=True, slots=True)
 class HelloReply:
     """Device: what answers.
 
@@ -170,6 +194,10 @@ class HelloReply:
         The panel's chip as the host names it, or "" if not known; the firmware's name and version.
     features : int
         Those of `Feature` that the device has, and others that later versions add.
+    store : int
+        Bytes of sub-pictures that the device can keep; 0 if it keeps none.
+    frame_line : bool
+        Whether the panel's frame line tells the device when to go on to the next of them.
     """
 
     nonce: int
@@ -192,6 +220,8 @@ class HelloReply:
     controller: str = ""
     firmware: str = ""
     features: int = 0
+    store: int = 0
+    frame_line: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -240,13 +270,14 @@ class Byte:
     value: int = 0
 
 
-Message = Hello | Poll | Read | Write | Baud | Reset | HelloReply | Status | Boot | Ack | Nak | Byte
+Message = Hello | Poll | Read | Write | Baud | Reset | Store | Cycle | HelloReply | Status | Boot | Ack | Nak | Byte
 
 _HELLO = struct.Struct("<IBB")
-_FEATURES = struct.Struct("<H")
+_NUMBER = struct.Struct("<H")
 _REPLY = struct.Struct("<IBBBHBBBBBHHHHB")
 _STATUS = struct.Struct("<BBHHHH")
 _BOOT = struct.Struct("<HB")
+_CYCLE = struct.Struct("<HB")
 
 
 def encode(message: Message) -> bytes:
@@ -291,7 +322,7 @@ def _fields(message: Message) -> tuple[int, int, bytes]:
         case Ack(seq, fault):
             return Kind.ACK, seq, bytes((fault,))
         case Hello(nonce, oldest, newest, features):
-            return Kind.HELLO, 0, _HELLO.pack(nonce, oldest, newest) + _FEATURES.pack(features)
+            return Kind.HELLO, 0, _HELLO.pack(nonce, oldest, newest) + _NUMBER.pack(features)
         case Poll(token):
             return Kind.POLL, token, b""
         case Read(token):
@@ -300,6 +331,10 @@ def _fields(message: Message) -> tuple[int, int, bytes]:
             return Kind.BAUD, seq, rate.to_bytes(4, "little")
         case Reset(seq, pulse):
             return Kind.RESET, seq, bytes((pulse,))
+        case Store(seq, offset, content):
+            return Kind.STORE, seq, _NUMBER.pack(offset) + content
+        case Cycle(seq, period, count):
+            return Kind.CYCLE, seq, _CYCLE.pack(period, count) if count else b""
         case HelloReply():
             return Kind.HELLO_REPLY, 0, _pack_reply(message)
         case Status(token, expected, fault, boot, damaged, overflows, line_errors):
@@ -313,7 +348,7 @@ def _fields(message: Message) -> tuple[int, int, bytes]:
 
 
 def _pack_reply(reply: HelloReply) -> bytes:
-    flags = reply.acknowledges | reply.present << 1 | reply.reset_line << 2
+    flags = reply.acknowledges | reply.present << 1 | reply.reset_line << 2 | reply.frame_line << 3
     return b"".join(
         (
             _REPLY.pack(
@@ -323,7 +358,8 @@ def _pack_reply(reply: HelloReply) -> bytes:
             ),
             *(rate.to_bytes(4, "little") for rate in reply.bauds),
             *(bytes((len(name),)) + name.encode("ascii") for name in (reply.controller, reply.firmware)),
-            _FEATURES.pack(reply.features),
+            _NUMBER.pack(reply.features),
+            _NUMBER.pack(reply.store),
         )
     )  # fmt: skip
 
@@ -335,22 +371,27 @@ def _read_reply(seq: int, payload: bytes) -> HelloReply:
     rates = struct.unpack(f"<{bauds}I", payload[_REPLY.size : at])
     controller, at = _read_name(payload, at)
     firmware, at = _read_name(payload, at)
-    features = _read_features(payload, at)
+    features, store = _read_number(payload, at), _read_number(payload, at + _NUMBER.size)
     return HelloReply(
         nonce, version, oldest, newest, boot, cause, PanelBus(bus), address,
         bool(flags & 1), bool(flags & 2), bool(flags & 4), bool(encodings & 1),
         max_payload, window, width, height, rates, controller, firmware, features,
+        store, bool(flags & 8),
     )  # fmt: skip
 
 
 def _read_hello(seq: int, payload: bytes) -> Hello:
     nonce, oldest, newest = _HELLO.unpack_from(payload)
-    return Hello(nonce, oldest, newest, _read_features(payload, _HELLO.size))
+    return Hello(nonce, oldest, newest, _read_number(payload, _HELLO.size))
 
 
-def _read_features(payload: bytes, at: int) -> int:
-    """A field that was added: who does not send it has none of them."""
-    return int(_FEATURES.unpack_from(payload, at)[0]) if len(payload) >= at + _FEATURES.size else 0
+def _read_number(payload: bytes, at: int) -> int:
+    """A field that was added: it is 0 of who does not send it."""
+    return int(_NUMBER.unpack_from(payload, at)[0]) if len(payload) >= at + _NUMBER.size else 0
+
+
+def _read_store(seq: int, payload: bytes) -> Store:
+    return Store(seq, *_NUMBER.unpack_from(payload), payload[_NUMBER.size :])
 
 
 def _read_status(seq: int, payload: bytes) -> Status:
@@ -373,6 +414,8 @@ _READERS: dict[int, Callable[[int, bytes], Message]] = {
     Kind.WRITE_END: lambda seq, payload: Write(seq, payload, True),
     Kind.BAUD: lambda seq, payload: Baud(seq, int.from_bytes(struct.unpack_from("4s", payload)[0], "little")),
     Kind.RESET: lambda seq, payload: Reset(seq, bool(payload[0] & 1)),
+    Kind.STORE: _read_store,
+    Kind.CYCLE: lambda seq, payload: Cycle(seq, *(_CYCLE.unpack_from(payload) if payload else ())),
     Kind.HELLO_REPLY: _read_reply,
     Kind.STATUS: _read_status,
     Kind.BOOT: lambda seq, payload: Boot(*_BOOT.unpack_from(payload)),

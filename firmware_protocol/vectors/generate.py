@@ -12,6 +12,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
+from firmware_protocol.cycle import pack_turns
 from firmware_protocol.device import UNO, Device
 from firmware_protocol.frames import FrameDecoder, encode_frame
 from firmware_protocol.messages import (
@@ -19,6 +20,7 @@ from firmware_protocol.messages import (
     Baud,
     Boot,
     Byte,
+    Cycle,
     Feature,
     Hello,
     Kind,
@@ -27,6 +29,7 @@ from firmware_protocol.messages import (
     Read,
     Reset,
     Status,
+    Store,
     Write,
     encode,
 )
@@ -48,6 +51,7 @@ def frames() -> str:
     messages = (
         *(Hello(0x01020304), Poll(9), Read(4), Baud(2, 500_000), Reset(3)),
         *(Status(9, 2), Boot(7, 8), Ack(0), Nak(5), Byte(4, value=0x43)),
+        *(Store(4, 260, b"\x02\x00\x00\xff"), Cycle(5, 1694, 3), Cycle(6)),
     )
     cases += [frame for message in messages for frame in FrameDecoder().feed(encode(message)) if frame]
     return "".join(
@@ -69,7 +73,7 @@ def damaged(frame: bytes, at: int = 3) -> bytes:
 
 def conversations() -> dict[str, list[Step]]:
     """Return the host's half of each conversation, and what happens besides."""
-    return {**exchanges(), **troubles(), **rates(), **kinds_of_device()}
+    return {**exchanges(), **cycles(), **troubles(), **rates(), **kinds_of_device()}
 
 
 def exchanges() -> dict[str, list[Step]]:
@@ -108,6 +112,42 @@ def exchanges() -> dict[str, list[Step]]:
         "a session begun anew": [
             hello, picture(0, *pixel), picture(1, *pixel), hello, picture(1, *pixel), picture(0, *pixel),
         ],
+    }  # fmt: skip
+
+
+def cycles() -> dict[str, list[Step]]:
+    """Return those with sub-pictures that the device writes in turn, each 100 ms after the last."""
+    hello = b"\0" + encode(Hello(9, features=Feature.CYCLE | Feature.WATCH))
+    place = (False, bytes.fromhex("b00810"))
+    pixel = place, (True, b"\xff")
+    kept = pack_turns([[place, (True, bytes((byte,)))] for byte in (1, 2, 3)], 760)
+    three = [hello, picture(0, *pixel), encode(Store(1, 0, kept)), encode(Cycle(2, 25_000, 3))]
+    return {
+        "sub-pictures in turn": [*three, *["! wait 100"] * 4, encode(Poll(1)), picture(3, *pixel), "! wait 200"],
+        "a cycle ends with its last sub-picture": [
+            *three, encode(Cycle(3)), encode(Cycle(4, 25_000, 3)), "! wait 100", encode(Cycle(5)), "! wait 200",
+            encode(Cycle(6, 25_000, 2)), "! wait 100", encode(Baud(7, 115_200)), "! wait 100", "! wait 100", hello,
+            "! wait 200",
+        ],
+        "a store in two parts, repeats, a sub-picture without change": [
+            hello, encode(Store(0, 0, b"\x02\x00\xfd")), encode(Store(1, 3, b"\x07\x00\x00\x02\x00\x00\x05")),
+            encode(Cycle(2, 25_000, 3)), *["! wait 100"] * 4, encode(Reset(3)), encode(Store(4, 759, b"\x01")),
+        ],
+        "cycles that cannot be": [
+            hello, encode(Store(0, 759, b"\1\2")), encode(Reset(1)), encode_frame(Kind.STORE, 2, b"\0"),
+            encode(Reset(3)), encode(Cycle(4, 249, 1)), encode(Reset(5)), encode_frame(Kind.CYCLE, 6, b"\0\x80"),
+            encode(Reset(7)), encode(Store(8, 0, b"\x02\x00\x01\xff")), encode(Cycle(9, 250, 1)), encode(Reset(10)),
+            encode(Store(11, 0, b"\xff\x02")), encode(Cycle(12, 250, 1)), encode(Store(13, 0, kept)),
+            encode(Cycle(14, 250, 1)), encode(Reset(15)), encode(Cycle(16, 250, 255)),
+        ],
+        "nobody asked for cycles": [
+            b"\0" + encode(Hello(9)), encode(Store(0, 0, kept)), encode(Reset(1)), encode(Cycle(2, 250, 1)),
+        ],
+        "the panel goes within a cycle": [
+            *three, "! wait 100", "! gone", "! wait 100", "! back", "! wait 100", encode(Poll(1)), picture(3, *pixel),
+            encode(Reset(4)), picture(5, *pixel),
+        ],
+        "a start within a cycle": [*three, "! wait 100", "! start 8", "! wait 300", hello, encode(Cycle(0, 25_000, 3))],
     }  # fmt: skip
 
 

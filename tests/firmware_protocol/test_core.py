@@ -15,8 +15,23 @@ from hypothesis import strategies as st
 from searching import examples
 
 from firmware_protocol import Device
+from firmware_protocol.cycle import pack_turns
 from firmware_protocol.frames import FrameDecoder, encode_frame
-from firmware_protocol.messages import Baud, Boot, Fault, Hello, Poll, Read, Reset, Status, Write, decode, encode
+from firmware_protocol.messages import (
+    Baud,
+    Boot,
+    Cycle,
+    Fault,
+    Hello,
+    Poll,
+    Read,
+    Reset,
+    Status,
+    Store,
+    Write,
+    decode,
+    encode,
+)
 from firmware_protocol.runs import pack_runs
 
 VECTORS = FIRMWARE.parent / "vectors"
@@ -30,6 +45,7 @@ OPTIONS = {
     "control-each": "-DPD_CONTROL_EACH=1",
     "no-repeats": "-DPD_REPEATS=0",
     "reset-line": "-DPD_RESET_LINE=1",
+    "without-a-store": "-DPD_STORE_SIZE=0",
     "long": "-DPD_MAX_PAYLOAD=1024 -DPD_RING_SIZE=2048",
 }
 
@@ -70,6 +86,9 @@ def core(cores: Cores) -> Core:
         ({"PD_TX_SIZE": 256}, "PD_TX_SIZE must be a power of two up to 128"),
         ({"PD_TX_SIZE": 100}, "PD_TX_SIZE must be a power of two up to 128"),
         ({"PD_TX_SIZE": 64}, "hello_reply_fits"),
+        ({"PD_STORE_SIZE": 0}, ""),
+        ({"PD_STORE_SIZE": 32768}, "PD_STORE_SIZE must be 0 to 32767"),
+        ({"PD_FRAME_LINE": 1}, ""),
         ({"PD_BUS": 3}, "PD_BUS must be"),
         ({"PD_BUS": "PD_BUS_IS_SPI", "PD_CONTROL_EACH": 1}, "PD_CONTROL_EACH must be 0 on SPI"),
     ],
@@ -99,6 +118,7 @@ def happens(core: Core, what: str) -> list[str]:
     if name == "wait":
         core.now += int(value)
         assert core.receive(b"") == b""
+        return [f"= {content.hex()}" for content in core.transactions()]
     elif name == "reads":
         core.gives(int(value, 16))
     else:
@@ -151,6 +171,7 @@ def status(device: Core | Device) -> Status:
 
 RUNS = st.lists(st.tuples(st.booleans(), st.binary(min_size=1, max_size=80)), max_size=3)
 SEQ = st.integers(0, 5)
+SMALL = st.integers(0, 3)
 PIECES = st.one_of(
     st.builds(lambda n: encode(Hello(n)), st.integers(0, 3)),
     st.builds(lambda n, a, b: encode(Hello(n, a, b)), st.integers(0, 3), st.integers(0, 3), st.integers(0, 3)),
@@ -161,6 +182,9 @@ PIECES = st.one_of(
     st.builds(lambda s, p: encode(Write(s, p)), SEQ, st.binary(max_size=30)),
     st.builds(lambda s, r: encode(Baud(s, r)), SEQ, st.sampled_from([115200, 500000, 9600])),
     st.builds(lambda s, p: encode(Reset(s, p)), SEQ, st.booleans()),
+    st.builds(lambda s, at, content: encode(Store(s, at, content)), SEQ, st.integers(0, 900), st.binary(max_size=30)),
+    st.builds(lambda s, turns: encode(Store(s, 0, pack_turns(turns, 760))), SEQ, st.lists(RUNS, max_size=3)),
+    st.builds(lambda s, period, n: encode(Cycle(s, period, n)), SEQ, st.sampled_from([0, 250, 25000]), SMALL),
     st.builds(encode_frame, byte, SEQ, st.binary(max_size=12)),
     st.builds(encode_frame, st.just(0x10), SEQ, st.binary(min_size=240, max_size=260)),
     st.binary(max_size=40),
@@ -203,6 +227,8 @@ def test_the_core_does_what_the_reference_does(core: Core, work: list[tuple[byte
             now = core.now = now + data.draw(st.sampled_from([100, 299, 300, 999, 1000, 1499, 1500]))
             device.tick()
             core.receive(b"")
+            assert core.transactions() == written
+            written.clear()
         elif what == "line error":
             device.line_error()
             core.c.host_line_error()

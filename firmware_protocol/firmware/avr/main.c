@@ -7,6 +7,7 @@
 #include <util/delay.h>
 
 #define RESET_PIN PB0 /* Uno D8 */
+#define TICKS (F_CPU / 64 / 1000) /* of 4 us, a millisecond */
 
 static volatile uint16_t milliseconds;
 static uint8_t cause __attribute__((section(".noinit")));
@@ -79,11 +80,34 @@ void pd_port_reset_panel(void)
     _delay_ms(10);
 }
 
+#if PD_FRAME_LINE
+ISR(INT0_vect)
+{
+    pd_frame();
+}
+#endif
+
 /* -- time */
 
 ISR(TIMER0_COMPA_vect)
 {
     milliseconds++;
+}
+
+/* What an interrupt that waits would count is counted here. */
+uint16_t pd_port_ticks(void)
+{
+    uint16_t ticks;
+    PD_GUARDED({
+        uint8_t part = TCNT0;
+        ticks = milliseconds;
+        if (TIFR0 & _BV(OCF0A)) {
+            part = TCNT0;
+            ticks++;
+        }
+        ticks = ticks * TICKS + part;
+    });
+    return ticks;
 }
 
 static void count_boot(void)
@@ -101,9 +125,13 @@ int main(void)
 {
     DDRB |= _BV(RESET_PIN);
     pd_panel_init();
+#if PD_FRAME_LINE /* Uno D2 */
+    EICRA = _BV(ISC01) | _BV(ISC00);
+    EIMSK = _BV(INT0);
+#endif
     TCCR0A = _BV(WGM01);
     TCCR0B = _BV(CS01) | _BV(CS00); /* F_CPU / 64 */
-    OCR0A = F_CPU / 64 / 1000 - 1;
+    OCR0A = TICKS - 1;
     TIMSK0 = _BV(OCIE0A);
     pd_port_set_rate(115200);
     count_boot();

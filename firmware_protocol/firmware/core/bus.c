@@ -18,11 +18,11 @@ static inline uint8_t trailing_of(uint8_t header)
     return header >> 3 & 7;
 }
 
-bool pd_tokens_valid(uint16_t at, uint16_t end)
+bool pd_tokens_valid(const uint8_t *memory, uint16_t mask, uint16_t at, uint16_t end)
 {
-    uint16_t left = (end - at) & PD_RING_MASK;
+    uint16_t left = (end - at) & mask;
     while (left) {
-        uint8_t header = pd_rx.ring[at];
+        uint8_t header = memory[at];
         uint8_t size = 2;
         if (header >= REPEATS && !PD_REPEATS)
             return false;
@@ -33,7 +33,7 @@ bool pd_tokens_valid(uint16_t at, uint16_t end)
         if (size > left)
             return false;
         left -= size;
-        at = (at + size) & PD_RING_MASK;
+        at = (at + size) & mask;
     }
     return true;
 }
@@ -49,8 +49,10 @@ static void begin(uint16_t at, uint16_t end, uint8_t run)
     pd_port_bus_start();
 }
 
-void pd_bus_write(uint16_t at, uint16_t end)
+void pd_bus_write(const uint8_t *memory, uint16_t mask, uint16_t at, uint16_t end)
 {
+    pd_bus.memory = memory;
+    pd_bus.mask = mask;
     begin(at, end, at == end ? RUN_PROBE : RUN_NONE);
 }
 
@@ -73,8 +75,8 @@ void pd_bus_done(enum pd_fault fault)
 static inline uint8_t take(void)
 {
     uint16_t at = pd_bus.at;
-    pd_bus.at = (at + 1) & PD_RING_MASK;
-    return pd_rx.ring[at];
+    pd_bus.at = (at + 1) & pd_bus.mask;
+    return pd_bus.memory[at];
 }
 
 /* Goes on to the next bytes of one kind; returns what they carry. The tokens are not at their end. */

@@ -1,5 +1,6 @@
 /* The state machine: frames in, work in order, replies out. */
 #include "bus.h"
+#include "cycle.h"
 #include "in.h"
 #include "out.h"
 
@@ -17,17 +18,20 @@ enum kind {
     WRITE_END = 0x11,
     BAUD = 0x12,
     RESET = 0x13,
+    STORE = 0x14,
+    CYCLE = 0x15,
     HELLO_REPLY = 0x81,
     STATUS = 0x82,
     BOOT = 0x83,
     ACK = 0x84,
     NAK = 0x85,
     BYTE = 0x86,
+    TURN = 0xFE, /* no message: the next sub-picture */
     LOOK = 0xFF, /* no message: whether the panel is still there */
 };
 
-enum feature { WATCH = 1, READS = 2 };
-#define FEATURES ((PD_BUS == PD_BUS_IS_I2C ? WATCH : 0) | (PD_READS ? READS : 0))
+enum feature { WATCH = 1, READS = 2, CYCLES = 4 };
+#define FEATURES ((PD_BUS == PD_BUS_IS_I2C ? WATCH : 0) | (PD_READS ? READS : 0) | (PD_STORE_SIZE ? CYCLES : 0))
 
 enum owed { OWE_ACK = 1, OWE_NAK = 2, OWE_STATUS = 4, OWE_HELLO = 8, OWE_BOOT = 16, OWE_BYTE = 32 };
 
@@ -55,7 +59,7 @@ static const char controller[] PD_FLASH = PD_CONTROLLER;
 static const char firmware[] PD_FLASH = PD_FIRMWARE;
 #define RATES (sizeof rates / sizeof rates[0])
 /* The longest reply is written whole before it goes out. */
-typedef char hello_reply_fits[32 + 4 * RATES + sizeof controller + sizeof firmware <= PD_TX_SIZE ? 1 : -1];
+typedef char hello_reply_fits[34 + 4 * RATES + sizeof controller + sizeof firmware <= PD_TX_SIZE ? 1 : -1];
 
 static inline uint8_t at(uint16_t position)
 {
@@ -83,7 +87,7 @@ static void say_hello(void)
     out_byte(link.cause);
     out_byte(PD_BUS);
     out_byte(PD_ADDRESS);
-    out_byte((PD_BUS == PD_BUS_IS_I2C) | link.present << 1 | PD_RESET_LINE << 2);
+    out_byte((PD_BUS == PD_BUS_IS_I2C) | link.present << 1 | PD_RESET_LINE << 2 | PD_FRAME_LINE << 3);
     out_byte(PD_REPEATS);
     out_put(PD_MAX_PAYLOAD, 2);
     out_put(PD_WINDOW, 2);
@@ -98,6 +102,7 @@ static void say_hello(void)
     put_name(controller, sizeof controller);
     put_name(firmware, sizeof firmware);
     out_put(FEATURES, 2);
+    out_put(PD_STORE_SIZE, 2);
     out_finish();
 }
 
@@ -182,7 +187,7 @@ static void complete(void)
         link.owed |= OWE_HELLO;
     } else if (link.running.kind == READ) {
         link.owed |= OWE_BYTE;
-    } else if (link.running.kind != POLL && link.running.kind != LOOK) {
+    } else if (link.running.kind != POLL && link.running.kind < TURN) {
         link.done = link.running.seq;
         link.owed |= OWE_ACK;
     }
@@ -207,6 +212,16 @@ static void change_rate(const struct frame *frame)
     fail(PD_BAUD_NOT_OFFERED);
 }
 
+static void write(const struct frame *frame)
+{
+    pd_bus_write(pd_rx.ring, PD_RING_MASK, frame->payload, frame->end);
+}
+
+static void look(void)
+{
+    pd_bus_write(pd_rx.ring, PD_RING_MASK, 0, 0);
+}
+
 /* Does what a frame asks; true if that goes on in the background. */
 static bool execute(const struct frame *frame)
 {
@@ -216,7 +231,7 @@ static bool execute(const struct frame *frame)
         link.done = 0xFF;
         for (uint8_t i = 0; i < 4; i++)
             link.nonce[i] = at(frame->payload + i);
-        pd_bus_write(0, 0);
+        look();
         return true;
     case POLL:
         link.token = frame->seq;
@@ -227,18 +242,21 @@ static bool execute(const struct frame *frame)
         link.read_token = frame->seq;
         pd_bus_read();
         return true;
+    case TURN:
+        cycle_turn();
+        return true;
     case LOOK:
-        pd_bus_write(0, 0);
+        look();
         return true;
     case WRITE:
     case WRITE_END:
         if (link.fault || frame->payload == frame->end)
             return false;
-        if (!pd_tokens_valid(frame->payload, frame->end)) {
+        if (!pd_tokens_valid(pd_rx.ring, PD_RING_MASK, frame->payload, frame->end)) {
             fail(PD_MALFORMED);
             return false;
         }
-        pd_bus_write(frame->payload, frame->end);
+        write(frame);
         return true;
     case BAUD:
         if (!link.fault)
@@ -252,6 +270,13 @@ static bool execute(const struct frame *frame)
         link.fault = PD_OK;
         if (PD_RESET_LINE && at(frame->payload) & 1)
             pd_port_reset_panel();
+        return false;
+    case STORE:
+    case CYCLE:
+        if (!(link.features & CYCLES))
+            fail(PD_UNKNOWN_KIND);
+        else if (!link.fault && !(frame->kind == STORE ? cycle_store : cycle_begin)(frame->payload, frame->end))
+            fail(PD_MALFORMED);
         return false;
     default:
         fail(PD_UNKNOWN_KIND);
@@ -276,6 +301,8 @@ static void bus_ended(uint8_t fault)
         link.read_value = fault ? 0 : pd_bus.value;
     } else {
         fail(fault);
+        if (fault && link.running.kind == TURN)
+            cycle_end();
     }
 }
 
@@ -292,11 +319,30 @@ static void watch(uint16_t now)
     if ((uint16_t)(now - link.quiet_since) < QUIET_MS || link.running.kind)
         return;
     link.quiet_since = now;
-    if (!(link.features & WATCH) || link.fault)
+    if (!(link.features & WATCH) || link.fault || cycle_goes_on())
         return;
     link.running.kind = LOOK;
     link.running.start = in.start;
     run();
+}
+
+/* Whether a message ends a cycle: all that may write to the panel or to the store. */
+static bool ends_cycle(uint8_t kind)
+{
+    return kind == HELLO || ((kind & 0xF0) == 0x10 && kind != BAUD);
+}
+
+/* Writes the next sub-picture when it is due; what waits and ends the cycle has the rest of it written at once. */
+static void go_on(void)
+{
+    bool ending = ends_cycle(link.ready.kind);
+    if (ending && !cycle_within()) {
+        cycle_end();
+    } else if (ending || cycle_due()) {
+        link.running.kind = TURN;
+        link.running.start = link.ready.kind ? link.ready.start : in.start;
+        run();
+    }
 }
 
 static void work(uint16_t now)
@@ -317,7 +363,9 @@ static void work(uint16_t now)
         bus_ended(pd_bus.fault);
         complete();
     }
-    if (may_begin()) {
+    if (cycle_goes_on())
+        go_on();
+    if (!link.running.kind && may_begin()) {
         link.running = link.ready;
         link.ready.kind = 0;
         run();
@@ -462,6 +510,7 @@ void pd_start(uint16_t boot, uint8_t cause)
     link.cause = cause;
     link.owed = OWE_BOOT;
     pd_bus.state = PD_BUS_IDLE;
+    cycle_clear();
     pd_rx.overflows = pd_rx.line_errors = 0;
     out_clear();
     pd_rx.head = in.read = 0;

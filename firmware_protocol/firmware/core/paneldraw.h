@@ -26,6 +26,13 @@
 #ifndef PD_READS
 #define PD_READS 0
 #endif
+/* Bytes of sub-pictures that are kept and written in turn; whether the panel's frame line is wired, see pd_frame. */
+#ifndef PD_STORE_SIZE
+#define PD_STORE_SIZE 0
+#endif
+#ifndef PD_FRAME_LINE
+#define PD_FRAME_LINE 0
+#endif
 
 #if PD_RING_SIZE < 1 || PD_RING_SIZE & (PD_RING_SIZE - 1) || PD_RING_SIZE > 65536
 #error "PD_RING_SIZE must be a power of two up to 65536: places in it are 16 bits"
@@ -41,6 +48,9 @@
 #endif
 #if PD_BUS != PD_BUS_IS_I2C && PD_BUS != PD_BUS_IS_SPI
 #error "PD_BUS must be PD_BUS_IS_I2C or PD_BUS_IS_SPI"
+#endif
+#if PD_STORE_SIZE < 0 || PD_STORE_SIZE > 32767
+#error "PD_STORE_SIZE must be 0 to 32767"
 #endif
 #if PD_BUS == PD_BUS_IS_SPI && PD_CONTROL_EACH
 #error "PD_CONTROL_EACH must be 0 on SPI, where there are no control bytes"
@@ -104,6 +114,14 @@ bool pd_transmit(uint8_t *byte);
 uint16_t pd_bus_next(void);
 void pd_bus_took(uint8_t byte);
 void pd_bus_done(enum pd_fault fault);
+
+#if PD_FRAME_LINE
+/* Call with each pulse of the panel's frame line. */
+void pd_frame(void);
+#endif
+
+/* The time in ticks of 4 microseconds. */
+uint16_t pd_port_ticks(void);
 
 /* Begin to do what pd_bus_next says, in the background or at once. */
 void pd_port_bus_start(void);

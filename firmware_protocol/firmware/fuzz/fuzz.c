@@ -7,20 +7,23 @@
 #include <string.h>
 
 #include "../host/host.h"
+#include "cycle.h"
 #include "paneldraw.h"
 
 /* A HELLO that knows all features. */
 static const uint8_t hello[] = {0x00, 0x02, 0x01, 0x08, 0x04, 0x03, 0x02, 0x01,
-                                0x01, 0x01, 0x03, 0x03, 0x6c, 0x55, 0x00};
+                                0x01, 0x01, 0x07, 0x03, 0xa0, 0x91, 0x00};
 
 void host_start(uint16_t boot, uint8_t cause);
 void host_set(bool gone, bool slow, bool stuck);
 
-/* A repeat of 65 and what the bus notes of a transaction, for two bytes. */
+/* A repeat of 65 and what the bus notes of a transaction, for two bytes; and while a cycle goes on, for as many as the
+ * store has with each turn.
+ */
 #define MOST_WRITTEN 34
 
 static unsigned answered;
-static size_t came, written;
+static size_t came, written, turned;
 
 static void receive(uint8_t byte)
 {
@@ -32,14 +35,16 @@ static void look_at_panel(void)
 {
     written += host.size;
     host.size = 0;
-    if (written > MOST_WRITTEN * came)
+    if (written > MOST_WRITTEN * (came + PD_STORE_SIZE * turned))
         abort();
 }
 
 static void turns(unsigned count, uint16_t now)
 {
     uint8_t byte;
+    host.ticks = now * 250;
     while (count--) {
+        turned += cycle_goes_on();
         pd_poll(now);
         while (pd_transmit(&byte))
             answered++;
@@ -51,7 +56,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     uint16_t now = 0;
     host_start(1, 1);
     answered = 0;
-    came = written = 0;
+    came = written = turned = 0;
     for (size_t i = 0; i < sizeof hello && size && data[0] & 1; i++) {
         receive(hello[i]);
         turns(3, now);

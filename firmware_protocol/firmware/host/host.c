@@ -67,6 +67,11 @@ void pd_port_set_rate(uint32_t rate)
     host.rate = rate;
 }
 
+uint16_t pd_port_ticks(void)
+{
+    return host.ticks;
+}
+
 void pd_port_reset_panel(void)
 {
     host.resets++;
@@ -91,10 +96,11 @@ void host_set(bool gone, bool slow, bool stuck)
 uint16_t host_receive(const uint8_t *bytes, uint16_t size, uint8_t *answer, uint16_t room, uint16_t milliseconds)
 {
     uint16_t answered = 0;
+    host.ticks = milliseconds * 250;
     for (uint16_t i = 0; i <= size; i++) {
         if (i < size)
             pd_receive(bytes[i]);
-        for (uint8_t turn = 0; turn < 6; turn++) {
+        for (uint8_t turn = 0; turn < 10; turn++) {
             pd_poll(milliseconds);
             while (answered < room && pd_transmit(answer + answered))
                 answered++;

@@ -10,6 +10,7 @@ struct host {
     bool on, idle;
     uint8_t status; /* what the panel gives when it is read */
     uint32_t rate;
+    uint16_t ticks;
     unsigned resets;
     size_t size, length;
     uint8_t bytes[60000];

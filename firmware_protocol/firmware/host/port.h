@@ -12,6 +12,9 @@
 #define PD_MAX_PAYLOAD 250
 #endif
 #define PD_READS 1
+#ifndef PD_STORE_SIZE
+#define PD_STORE_SIZE 760
+#endif
 #define PD_BUS PD_BUS_IS_I2C
 #define PD_ADDRESS 0x3C
 #define PD_CONTROLLER "ssd1306"

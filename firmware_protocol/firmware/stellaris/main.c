@@ -65,6 +65,17 @@ void pd_port_set_rate(uint32_t rate)
     UART(UART_CONTROL) = 0x301;
 }
 
+uint16_t pd_port_ticks(void)
+{
+    uint32_t left;
+    uint16_t now;
+    do { /* the count turns over now and then */
+        now = pd_milliseconds;
+        left = TICK(8);
+    } while (now != pd_milliseconds);
+    return (uint16_t)(now * 250 + (CLOCK / 1000 - 1 - left) / (CLOCK / 250000));
+}
+
 /* -- the whole */
 
 static void init(void)

@@ -7,6 +7,7 @@
 #define PD_RING_SIZE 2048
 #define PD_TX_SIZE 128
 #define PD_MAX_PAYLOAD 250
+#define PD_STORE_SIZE 2048
 #define PD_RATES {115200UL}
 #define PD_RESET_LINE 0
 
