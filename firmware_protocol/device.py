@@ -309,18 +309,19 @@ class Device:
     def _ticks(self) -> int:
         return round(self.clock() * TICKS) & 0xFFFF
 
-    def _take_turn(self) -> None:
-        """Write the next sub-picture; a fault ends the cycle."""
-        runs = self._store.take(self._ticks)
+    def _take_turn(self, first: bool = False) -> None:
+        """Write the next sub-picture, or the first; a fault ends the cycle."""
+        runs = self._store.take(self._ticks, first=first)
         fault = self._put_out(runs) if runs else self._transfer(b"")
-        self._fail(fault)
-        self._store.on = self._store.on and not fault
+        if fault:
+            self._fail(fault)
+            self._store.end()
 
     def _end_cycle(self) -> None:
-        """Write what is left of a cycle, so that the panel shows the first sub-picture."""
-        while self._store.within:
-            self._take_turn()
-        self._store.on = False
+        """See to it that the panel shows the first sub-picture."""
+        if self._store.shown:
+            self._take_turn(first=True)
+        self._store.end()
 
     def _execute(self, frame: Frame) -> None:
         if frame.kind != Kind.BAUD:
@@ -350,7 +351,7 @@ class Device:
             if isinstance(message, Store):
                 self._store.put(message.offset, message.content)
             elif message.count:
-                self._store.begin(message.period, message.count, self._ticks)
+                self._store.begin(message.length, message.count, self._ticks)
         except ValueError:
             self._fail(Fault.MALFORMED)
 
@@ -419,5 +420,5 @@ UNO = HelloReply(
     controller="ssd1306",
     firmware="paneldraw reference 1.0",
     features=Feature.WATCH | Feature.READ | Feature.CYCLE,
-    store=760,
+    store=720,
 )

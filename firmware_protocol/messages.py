@@ -146,13 +146,13 @@ class Store:
 
 @dataclass(frozen=True, slots=True)
 class Cycle:
-    """Host: write the first ``count`` sub-pictures of the store in turn, each ``period`` ticks of 4 us after the last.
+    """Host: write the ``count`` sub-pictures in turn that the first ``length`` bytes of the store are.
 
     None with a ``count`` of 0: then it ends a cycle, as every sequenced message but BAUD does.
     """
 
     seq: int
-    period: int = 0
+    length: int = 0
     count: int = 0
 
 
@@ -333,8 +333,8 @@ def _fields(message: Message) -> tuple[int, int, bytes]:
             return Kind.RESET, seq, bytes((pulse,))
         case Store(seq, offset, content):
             return Kind.STORE, seq, _NUMBER.pack(offset) + content
-        case Cycle(seq, period, count):
-            return Kind.CYCLE, seq, _CYCLE.pack(period, count) if count else b""
+        case Cycle(seq, length, count):
+            return Kind.CYCLE, seq, _CYCLE.pack(length, count) if count else b""
         case HelloReply():
             return Kind.HELLO_REPLY, 0, _pack_reply(message)
         case Status(token, expected, fault, boot, damaged, overflows, line_errors):

@@ -71,8 +71,12 @@ def pack_runs(runs: Iterable[Run], limit: int, *, repeats: bool = True, whole: i
     return packer.finish()
 
 
-def unpack_runs(payload: bytes, *, repeats: bool = True) -> list[tuple[bool, bytes]]:
+def unpack_runs(
+    payload: bytes, *, repeats: bool = True, copies: int = 1, copy: int = 0
+) -> list[tuple[bool, bytes]]:
     """Return the runs of a WRITE payload, neighbors of one kind joined, as they go onto the panel's bus.
+
+    In a store, each part of data stands in several copies, of which `copy` is the number of the one that is meant.
 
     Raises
     ------
@@ -85,7 +89,7 @@ def unpack_runs(payload: bytes, *, repeats: bool = True) -> list[tuple[bool, byt
     [(False, b'\\xb0\\x02\\x10'), (True, b'\\xffUUUU')]
     """
     joined: list[tuple[bool, bytearray]] = []
-    for is_data, content in _tokens(payload, repeats):
+    for is_data, content in _tokens(payload, repeats, copies, copy):
         if joined and joined[-1][0] == is_data:
             joined[-1][1].extend(content)
         else:
@@ -141,20 +145,22 @@ def cut_runs(runs: Iterable[Run], size: int) -> tuple[list[Run], list[Run]]:
     return before, after
 
 
-def _tokens(payload: bytes, repeats: bool) -> Iterator[tuple[bool, bytes]]:
+def _tokens(payload: bytes, repeats: bool, copies: int, copy: int) -> Iterator[tuple[bool, bytes]]:
     at = 0
     while at < len(payload):
         header = payload[at]
         commands, data = _sizes(header)
-        start, at = at + 1, at + 1 + commands + data
+        start, behind = at + 1, at + 1 + commands
+        at = behind + copies * data
         if at > len(payload):
             raise ValueError(f"the payload ends inside the token {header:02x}")
         if header >= REPEAT_HEADER and not repeats:
             raise ValueError(f"the token {header:02x} is a repeat")
         if commands:
-            yield False, payload[start : start + commands]
+            yield False, payload[start:behind]
         if data:
-            yield True, payload[start + commands : at] * (257 - header if header >= REPEAT_HEADER else 1)
+            content = payload[behind + copy * data : behind + (copy + 1) * data]
+            yield True, content * (257 - header if header >= REPEAT_HEADER else 1)
 
 
 def _sizes(header: int) -> tuple[int, int]:

@@ -12,7 +12,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
-from firmware_protocol.cycle import pack_turns
+from firmware_protocol.cycle import pack_cycle
 from firmware_protocol.device import UNO, Device
 from firmware_protocol.frames import FrameDecoder, encode_frame
 from firmware_protocol.messages import (
@@ -51,7 +51,7 @@ def frames() -> str:
     messages = (
         *(Hello(0x01020304), Poll(9), Read(4), Baud(2, 500_000), Reset(3)),
         *(Status(9, 2), Boot(7, 8), Ack(0), Nak(5), Byte(4, value=0x43)),
-        *(Store(4, 260, b"\x02\x00\x00\xff"), Cycle(5, 1694, 3), Cycle(6)),
+        *(Store(4, 260, b"\x02\x00\x00\xff"), Cycle(5, 264, 3), Cycle(6)),
     )
     cases += [frame for message in messages for frame in FrameDecoder().feed(encode(message)) if frame]
     return "".join(
@@ -119,35 +119,44 @@ def cycles() -> dict[str, list[Step]]:
     """Return those with sub-pictures that the device writes in turn, each 100 ms after the last."""
     hello = b"\0" + encode(Hello(9, features=Feature.CYCLE | Feature.WATCH))
     place = (False, bytes.fromhex("b00810"))
-    pixel = place, (True, b"\xff")
-    kept = pack_turns([[place, (True, bytes((byte,)))] for byte in (1, 2, 3)], 760)
-    three = [hello, picture(0, *pixel), encode(Store(1, 0, kept)), encode(Cycle(2, 25_000, 3))]
+    row = (True, bytes(range(40)))
+    pixel = place, (True, b"\1")
+    kept = pack_cycle([[place, (True, bytes((byte,)))] for byte in (1, 2, 3)], [0.1] * 3)
+    long = pack_cycle([[place, row, place, (True, bytes(range(n, n + 9))), row] for n in (1, 2)], [0.1, 0.2])
+    empty = pack_cycle([[], []], [0.1] * 2)
+    three = [hello, picture(0, *pixel), encode(Store(1, 0, kept)), encode(Cycle(2, len(kept), 3))]
     return {
-        "sub-pictures in turn": [*three, *["! wait 100"] * 4, encode(Poll(1)), picture(3, *pixel), "! wait 200"],
-        "a cycle ends with its last sub-picture": [
-            *three, encode(Cycle(3)), encode(Cycle(4, 25_000, 3)), "! wait 100", encode(Cycle(5)), "! wait 200",
-            encode(Cycle(6, 25_000, 2)), "! wait 100", encode(Baud(7, 115_200)), "! wait 100", "! wait 100", hello,
-            "! wait 200",
+        "sub-pictures in turn": [*three, *["! wait 100"] * 5, encode(Poll(1)), picture(3, *pixel), "! wait 200"],
+        "a cycle ends with its first sub-picture": [
+            *three, encode(Cycle(3)), encode(Cycle(4, len(kept), 3)), "! wait 100", encode(Cycle(5)), "! wait 200",
+            encode(Cycle(6, len(kept), 3)), "! wait 100", encode(Baud(7, 115_200)), "! wait 100", hello, "! wait 200",
         ],
-        "a store in two parts, repeats, a sub-picture without change": [
-            hello, encode(Store(0, 0, b"\x02\x00\xfd")), encode(Store(1, 3, b"\x07\x00\x00\x02\x00\x00\x05")),
-            encode(Cycle(2, 25_000, 3)), *["! wait 100"] * 4, encode(Reset(3)), encode(Store(4, 759, b"\x01")),
+        "a store in two parts, and one that lasts longer": [
+            hello, encode(Store(0, 0, long[:70])), encode(Store(1, 70, long[70:])), encode(Cycle(2, len(long), 2)),
+            "! wait 100", "! wait 100", "! wait 100", "! wait 100", encode(Reset(3)), encode(Store(4, 719, b"\x01")),
+        ],
+        "repeats, and no change at all": [
+            hello, encode(Store(0, 0, kept[:4] + b"\xfd\x11\x22\x90\xa6\1\2\3\4\x80\xa7")), encode(Cycle(1, 15, 2)),
+            "! wait 100", encode(Cycle(2)), encode(Store(3, 0, empty)), encode(Cycle(4, len(empty), 2)), "! wait 100",
+            "! gone", "! wait 100", encode(Poll(1)),
         ],
         "cycles that cannot be": [
-            hello, encode(Store(0, 759, b"\1\2")), encode(Reset(1)), encode_frame(Kind.STORE, 2, b"\0"),
-            encode(Reset(3)), encode(Cycle(4, 249, 1)), encode(Reset(5)), encode_frame(Kind.CYCLE, 6, b"\0\x80"),
-            encode(Reset(7)), encode(Store(8, 0, b"\x02\x00\x01\xff")), encode(Cycle(9, 250, 1)), encode(Reset(10)),
-            encode(Store(11, 0, b"\xff\x02")), encode(Cycle(12, 250, 1)), encode(Store(13, 0, kept)),
-            encode(Cycle(14, 250, 1)), encode(Reset(15)), encode(Cycle(16, 250, 255)),
+            hello, encode(Store(0, 719, b"\1\2")), encode(Reset(1)), encode_frame(Kind.STORE, 2, b"\0"),
+            encode(Reset(3)), encode(Cycle(4, 2, 1)), encode(Reset(5)), encode_frame(Kind.CYCLE, 6, b"\0\x80"),
+            encode(Reset(7)), encode(Store(8, 0, kept)), encode(Cycle(9, len(kept) - 1, 3)), encode(Reset(10)),
+            encode(Cycle(11, 5, 3)), encode(Reset(12)), encode(Cycle(13, 721, 3)), encode(Reset(14)),
+            encode(Cycle(15, len(kept), 2)), encode(Store(16, 0, empty)), encode(Reset(17)), encode(Cycle(18, 4, 255)),
         ],
         "nobody asked for cycles": [
-            b"\0" + encode(Hello(9)), encode(Store(0, 0, kept)), encode(Reset(1)), encode(Cycle(2, 250, 1)),
+            b"\0" + encode(Hello(9)), encode(Store(0, 0, kept)), encode(Reset(1)), encode(Cycle(2, len(kept), 3)),
         ],
         "the panel goes within a cycle": [
             *three, "! wait 100", "! gone", "! wait 100", "! back", "! wait 100", encode(Poll(1)), picture(3, *pixel),
             encode(Reset(4)), picture(5, *pixel),
         ],
-        "a start within a cycle": [*three, "! wait 100", "! start 8", "! wait 300", hello, encode(Cycle(0, 25_000, 3))],
+        "a start within a cycle": [
+            *three, "! wait 100", "! start 8", "! wait 300", hello, encode(Cycle(0, len(kept), 3)),
+        ],
     }  # fmt: skip
 
 

@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 from searching import examples
 
 from firmware_protocol import Device
-from firmware_protocol.cycle import pack_turns
+from firmware_protocol.cycle import pack_cycle
 from firmware_protocol.frames import FrameDecoder, encode_frame
 from firmware_protocol.messages import (
     Baud,
@@ -172,6 +172,11 @@ def status(device: Core | Device) -> Status:
 RUNS = st.lists(st.tuples(st.booleans(), st.binary(min_size=1, max_size=80)), max_size=3)
 SEQ = st.integers(0, 5)
 SMALL = st.integers(0, 3)
+KEPT = st.builds(
+    lambda runs, seconds: pack_cycle([[(True, bytes((n,))), *runs] for n in range(len(seconds))], seconds),
+    RUNS,
+    st.lists(st.sampled_from([0.001, 0.1, 0.2]), min_size=1, max_size=3),
+)
 PIECES = st.one_of(
     st.builds(lambda n: encode(Hello(n)), st.integers(0, 3)),
     st.builds(lambda n, a, b: encode(Hello(n, a, b)), st.integers(0, 3), st.integers(0, 3), st.integers(0, 3)),
@@ -183,8 +188,8 @@ PIECES = st.one_of(
     st.builds(lambda s, r: encode(Baud(s, r)), SEQ, st.sampled_from([115200, 500000, 9600])),
     st.builds(lambda s, p: encode(Reset(s, p)), SEQ, st.booleans()),
     st.builds(lambda s, at, content: encode(Store(s, at, content)), SEQ, st.integers(0, 900), st.binary(max_size=30)),
-    st.builds(lambda s, turns: encode(Store(s, 0, pack_turns(turns, 760))), SEQ, st.lists(RUNS, max_size=3)),
-    st.builds(lambda s, period, n: encode(Cycle(s, period, n)), SEQ, st.sampled_from([0, 250, 25000]), SMALL),
+    st.builds(lambda s, kept: encode(Store(s, 0, kept)), SEQ, KEPT),
+    st.builds(lambda s, kept, n: encode(Cycle(s, len(kept), n)), SEQ, KEPT, SMALL),
     st.builds(encode_frame, byte, SEQ, st.binary(max_size=12)),
     st.builds(encode_frame, st.just(0x10), SEQ, st.binary(min_size=240, max_size=260)),
     st.binary(max_size=40),

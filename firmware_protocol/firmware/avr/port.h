@@ -10,7 +10,7 @@
 #define PD_RING_SIZE 512
 #define PD_TX_SIZE 128
 #define PD_MAX_PAYLOAD 250
-#define PD_STORE_SIZE 760
+#define PD_STORE_SIZE 720
 
 #ifdef PD_SPI
 #define PD_BUS PD_BUS_IS_SPI

@@ -18,47 +18,48 @@ static inline uint8_t trailing_of(uint8_t header)
     return header >> 3 & 7;
 }
 
-bool pd_tokens_valid(const uint8_t *memory, uint16_t mask, uint16_t at, uint16_t end)
+bool pd_tokens_valid(const struct pd_tokens *tokens)
 {
-    uint16_t left = (end - at) & mask;
+    uint16_t at = tokens->at, left = (tokens->end - at) & tokens->mask;
     while (left) {
-        uint8_t header = memory[at];
-        uint8_t size = 2;
+        uint8_t header = tokens->memory[at];
+        uint8_t commands = 0, data = 1;
         if (header >= REPEATS && !PD_REPEATS)
             return false;
-        if (header < COMMANDS)
-            size = header + 2;
-        else if (header < REPEATS)
-            size = 1 + commands_of(header) + trailing_of(header);
+        if (header < COMMANDS) {
+            data = header + 1;
+        } else if (header < REPEATS) {
+            commands = commands_of(header);
+            data = trailing_of(header);
+        }
+        uint16_t size = 1 + commands + (uint16_t)(data * tokens->copies);
         if (size > left)
             return false;
         left -= size;
-        at = (at + size) & mask;
+        at = (at + size) & tokens->mask;
     }
     return true;
 }
 
-static void begin(uint16_t at, uint16_t end, uint8_t run)
+static void begin(uint8_t run)
 {
-    pd_bus.at = at;
-    pd_bus.end = end;
-    pd_bus.left = pd_bus.trailing = 0;
+    pd_bus.rest = pd_bus.left = pd_bus.trailing = 0;
     pd_bus.control = false;
     pd_bus.run = run;
     PD_GUARDED(pd_bus.state = PD_BUS_BUSY); /* not before the rest is there */
     pd_port_bus_start();
 }
 
-void pd_bus_write(const uint8_t *memory, uint16_t mask, uint16_t at, uint16_t end)
+void pd_bus_write(const struct pd_tokens *tokens)
 {
-    pd_bus.memory = memory;
-    pd_bus.mask = mask;
-    begin(at, end, at == end ? RUN_PROBE : RUN_NONE);
+    pd_bus.tokens = *tokens;
+    begin(tokens->at == tokens->end ? RUN_PROBE : RUN_NONE);
 }
 
 void pd_bus_read(void)
 {
-    begin(0, 0, RUN_READ);
+    pd_bus.tokens.at = pd_bus.tokens.end;
+    begin(RUN_READ);
 }
 
 void pd_bus_took(uint8_t byte)
@@ -74,9 +75,24 @@ void pd_bus_done(enum pd_fault fault)
 
 static inline uint8_t take(void)
 {
-    uint16_t at = pd_bus.at;
-    pd_bus.at = (at + 1) & pd_bus.mask;
-    return pd_bus.memory[at];
+    uint16_t at = pd_bus.tokens.at;
+    pd_bus.tokens.at = (at + 1) & pd_bus.tokens.mask;
+    return pd_bus.tokens.memory[at];
+}
+
+static inline void pass_over(uint16_t bytes)
+{
+    pd_bus.tokens.at = (pd_bus.tokens.at + bytes) & pd_bus.tokens.mask;
+}
+
+/* Goes to the copy that is meant of data of a size. */
+static void open_data(uint8_t size)
+{
+    pd_bus.left = size;
+    if (pd_bus.tokens.copies > 1) {
+        pass_over(size * pd_bus.tokens.copy);
+        pd_bus.rest = size * (pd_bus.tokens.copies - 1 - pd_bus.tokens.copy);
+    }
 }
 
 /* Goes on to the next bytes of one kind; returns what they carry. The tokens are not at their end. */
@@ -84,18 +100,19 @@ static uint8_t open_part(void)
 {
     pd_bus.repeats = false;
     if (pd_bus.trailing) {
-        pd_bus.left = pd_bus.trailing;
+        open_data(pd_bus.trailing);
         pd_bus.trailing = 0;
         return RUN_DATA;
     }
     uint8_t header = take();
     if (header < COMMANDS) {
-        pd_bus.left = header + 1;
+        open_data(header + 1);
     } else if (header < REPEATS) {
         pd_bus.left = commands_of(header);
         pd_bus.trailing = trailing_of(header);
         return RUN_COMMANDS;
     } else {
+        open_data(1);
         pd_bus.repeats = true;
         pd_bus.left = (uint8_t)(0x101 - header);
         pd_bus.value = take();
@@ -115,7 +132,9 @@ uint16_t pd_bus_next(void)
             pd_bus.run = RUN_NONE;
             return PD_READ;
         }
-        if (pd_bus.at == pd_bus.end)
+        pass_over(pd_bus.rest);
+        pd_bus.rest = 0;
+        if (!pd_bus.trailing && pd_bus.tokens.at == pd_bus.tokens.end)
             return PD_STOP;
         uint8_t run = open_part();
         if (run != pd_bus.run) {

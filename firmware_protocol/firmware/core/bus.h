@@ -9,10 +9,17 @@ enum pd_bus_state { PD_BUS_IDLE, PD_BUS_BUSY, PD_BUS_DONE };
 /* The mask of places in memory that is no ring. */
 #define PD_UNBOUNDED 0xFFFF
 
+/* Tokens in memory, or in a ring, of which each part of data stands in several copies. */
+struct pd_tokens {
+    const uint8_t *memory;
+    uint16_t mask; /* of places there */
+    uint16_t at, end;
+    uint8_t copies, copy; /* how many there are, and which one is meant */
+};
+
 struct pd_bus {
-    const uint8_t *memory; /* where the tokens lie */
-    uint16_t mask;         /* of places there */
-    uint16_t at, end;     /* the tokens */
+    struct pd_tokens tokens;
+    uint16_t rest;        /* bytes of copies to be passed over after the data */
     uint8_t left;         /* bytes left of the commands, the data or the repeat */
     uint8_t trailing;     /* data bytes of the token that come after its commands */
     uint8_t value;        /* the byte that is repeated, or was read */
@@ -25,10 +32,10 @@ struct pd_bus {
 };
 extern struct pd_bus pd_bus;
 
-/* Whether the tokens from `at` to `end` are whole. */
-bool pd_tokens_valid(const uint8_t *memory, uint16_t mask, uint16_t at, uint16_t end);
+/* Whether tokens are whole. */
+bool pd_tokens_valid(const struct pd_tokens *tokens);
 /* Write them to the panel; with none, see whether the panel answers. */
-void pd_bus_write(const uint8_t *memory, uint16_t mask, uint16_t at, uint16_t end);
+void pd_bus_write(const struct pd_tokens *tokens);
 /* Read a byte from the panel, to pd_bus.value. */
 void pd_bus_read(void);
 

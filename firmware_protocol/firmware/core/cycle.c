@@ -1,18 +1,18 @@
-/* The store: strings of tokens, each with its length in two bytes ahead, one for each sub-picture. */
+/* The store: how long each sub-picture lasts, and tokens that are the same for all of them but for their data. */
 #include "cycle.h"
 
 #include "bus.h"
 
-#define LEAST_PERIOD 250
-#define LENGTH 2
+#define LEAST_TICKS 250
+#define TICKS_SIZE 2
 
 static uint8_t store[PD_STORE_SIZE ? PD_STORE_SIZE : 1];
 
 static struct {
     bool on;
-    uint8_t count, turn;
-    uint16_t at, period, began; /* where the next one stands; ticks */
-} cycle;
+    uint16_t began; /* in ticks, when the sub-picture that is shown was due */
+    struct pd_tokens tokens;
+} cycle = {.tokens = {store, PD_UNBOUNDED, 0, 0, 1, 0}};
 
 #if PD_FRAME_LINE
 static volatile bool pulsed;
@@ -28,9 +28,9 @@ static uint16_t number(uint16_t at)
     return pd_rx.ring[at & PD_RING_MASK] | pd_rx.ring[(at + 1) & PD_RING_MASK] << 8;
 }
 
-static uint16_t length_at(uint16_t at)
+static uint16_t ticks_of(uint8_t sub_picture)
 {
-    return store[at] | store[at + 1] << 8;
+    return store[sub_picture * TICKS_SIZE] | store[sub_picture * TICKS_SIZE + 1] << 8;
 }
 
 bool cycle_store(uint16_t at, uint16_t end)
@@ -47,20 +47,16 @@ bool cycle_store(uint16_t at, uint16_t end)
     return true;
 }
 
-/* Whether the store holds so many sub-pictures. */
-static bool holds(uint8_t count)
+/* Whether the store holds what was said of it. */
+static bool holds(void)
 {
-    uint16_t at = 0;
-    for (; count; count--) {
-        if (PD_STORE_SIZE - at < LENGTH)
+    cycle.tokens.at = cycle.tokens.copies * TICKS_SIZE;
+    if (cycle.tokens.end > PD_STORE_SIZE || cycle.tokens.end < cycle.tokens.at)
+        return false;
+    for (uint8_t each = 0; each < cycle.tokens.copies; each++)
+        if (ticks_of(each) < LEAST_TICKS)
             return false;
-        uint16_t length = length_at(at);
-        at += LENGTH;
-        if (length > PD_STORE_SIZE - at || !pd_tokens_valid(store, PD_UNBOUNDED, at, at + length))
-            return false;
-        at += length;
-    }
-    return true;
+    return pd_tokens_valid(&cycle.tokens);
 }
 
 bool cycle_begin(uint16_t at, uint16_t end)
@@ -70,13 +66,13 @@ bool cycle_begin(uint16_t at, uint16_t end)
         return true;
     if (size < 3)
         return false;
-    cycle.period = number(at);
-    cycle.count = pd_rx.ring[(at + 2) & PD_RING_MASK];
-    if (!cycle.count)
+    cycle.tokens.end = number(at);
+    cycle.tokens.copies = pd_rx.ring[(at + 2) & PD_RING_MASK];
+    if (!cycle.tokens.copies)
         return true;
-    if (cycle.period < LEAST_PERIOD || !holds(cycle.count))
+    if (!holds())
         return false;
-    cycle.at = cycle.turn = 0;
+    cycle.tokens.copy = 0;
     cycle.began = pd_port_ticks();
     cycle.on = true;
     return true;
@@ -89,43 +85,41 @@ bool cycle_goes_on(void)
 
 bool cycle_within(void)
 {
-    return cycle.turn;
+    return cycle.tokens.copy;
 }
 
-/* A frame line sets the pace where it keeps about to the period; one that is silent does not stop the cycle. */
+/* A frame line sets the pace where it keeps about to the time; one that is silent does not stop the cycle. */
 bool cycle_due(void)
 {
-    uint16_t passed = pd_port_ticks() - cycle.began;
+    uint16_t passed = pd_port_ticks() - cycle.began, ticks = ticks_of(cycle.tokens.copy);
 #if PD_FRAME_LINE
     if (pulsed) {
         pulsed = false;
-        if (passed >= cycle.period - cycle.period / 4)
+        if (passed >= ticks - ticks / 4)
             return true;
     }
-    return passed >= (uint32_t)cycle.period + cycle.period / 4;
+    return passed >= (uint32_t)ticks + ticks / 4;
 #else
-    return passed >= cycle.period;
+    return passed >= ticks;
 #endif
 }
 
-void cycle_turn(void)
+void cycle_turn(bool first)
 {
-    uint16_t now = pd_port_ticks(), at = cycle.at + LENGTH;
-    cycle.began += cycle.period;
-    if (PD_FRAME_LINE || (uint16_t)(now - cycle.began) >= cycle.period)
+    uint16_t now = pd_port_ticks();
+    uint8_t copy = cycle.tokens.copy;
+    cycle.began += ticks_of(copy);
+    copy = first || copy + 1 == cycle.tokens.copies ? 0 : copy + 1;
+    if (PD_FRAME_LINE || (uint16_t)(now - cycle.began) >= ticks_of(copy))
         cycle.began = now; /* too late for the next one to be in time */
-    cycle.at = at + length_at(cycle.at);
-    cycle.turn++;
-    uint16_t end = cycle.at;
-    if (cycle.turn == cycle.count)
-        cycle.at = cycle.turn = 0;
-    pd_bus_write(store, PD_UNBOUNDED, at, end);
+    cycle.tokens.copy = copy;
+    pd_bus_write(&cycle.tokens);
 }
 
 void cycle_end(void)
 {
     cycle.on = false;
-    cycle.turn = 0;
+    cycle.tokens.copy = 0;
 }
 
 void cycle_clear(void)

@@ -12,8 +12,8 @@ bool cycle_begin(uint16_t at, uint16_t end);
 bool cycle_goes_on(void);
 bool cycle_within(void);
 bool cycle_due(void);
-/* Begins to write the next sub-picture to the panel's bus. */
-void cycle_turn(void);
+/* Begins to write the next sub-picture to the panel's bus, or the first. */
+void cycle_turn(bool first);
 void cycle_end(void);
 /* Ends the cycle and forgets the store. */
 void cycle_clear(void);

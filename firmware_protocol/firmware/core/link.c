@@ -212,14 +212,19 @@ static void change_rate(const struct frame *frame)
     fail(PD_BAUD_NOT_OFFERED);
 }
 
-static void write(const struct frame *frame)
-{
-    pd_bus_write(pd_rx.ring, PD_RING_MASK, frame->payload, frame->end);
-}
+/* What is written of a frame, or nothing. */
+static struct pd_tokens tokens = {pd_rx.ring, PD_RING_MASK, 0, 0, 1, 0};
 
 static void look(void)
 {
-    pd_bus_write(pd_rx.ring, PD_RING_MASK, 0, 0);
+    tokens.at = tokens.end = 0;
+    pd_bus_write(&tokens);
+}
+
+/* Whether a message ends a cycle: all that may write to the panel or to the store. */
+static bool ends_cycle(uint8_t kind)
+{
+    return kind == HELLO || ((kind & 0xF0) == 0x10 && kind != BAUD);
 }
 
 /* Does what a frame asks; true if that goes on in the background. */
@@ -243,7 +248,7 @@ static bool execute(const struct frame *frame)
         pd_bus_read();
         return true;
     case TURN:
-        cycle_turn();
+        cycle_turn(ends_cycle(link.ready.kind));
         return true;
     case LOOK:
         look();
@@ -252,11 +257,13 @@ static bool execute(const struct frame *frame)
     case WRITE_END:
         if (link.fault || frame->payload == frame->end)
             return false;
-        if (!pd_tokens_valid(pd_rx.ring, PD_RING_MASK, frame->payload, frame->end)) {
+        tokens.at = frame->payload;
+        tokens.end = frame->end;
+        if (!pd_tokens_valid(&tokens)) {
             fail(PD_MALFORMED);
             return false;
         }
-        write(frame);
+        pd_bus_write(&tokens);
         return true;
     case BAUD:
         if (!link.fault)
@@ -326,13 +333,7 @@ static void watch(uint16_t now)
     run();
 }
 
-/* Whether a message ends a cycle: all that may write to the panel or to the store. */
-static bool ends_cycle(uint8_t kind)
-{
-    return kind == HELLO || ((kind & 0xF0) == 0x10 && kind != BAUD);
-}
-
-/* Writes the next sub-picture when it is due; what waits and ends the cycle has the rest of it written at once. */
+/* Writes the next sub-picture when it is due; what waits and ends the cycle has the first one written at once. */
 static void go_on(void)
 {
     bool ending = ends_cycle(link.ready.kind);

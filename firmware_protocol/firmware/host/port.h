@@ -13,7 +13,7 @@
 #endif
 #define PD_READS 1
 #ifndef PD_STORE_SIZE
-#define PD_STORE_SIZE 760
+#define PD_STORE_SIZE 720
 #endif
 #define PD_BUS PD_BUS_IS_I2C
 #define PD_ADDRESS 0x3C
