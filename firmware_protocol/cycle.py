@@ -1,7 +1,7 @@
 """Sub-pictures that a device keeps and writes to its panel in turn: what the eye averages to greys.
 
-The store begins with how long each sub-picture lasts, two bytes each, in ticks. Then come tokens as a WRITE has them, in
-which each part of data stands once for each sub-picture.
+The store begins with how long each sub-picture lasts, two bytes each, in ticks. Then come tokens as a WRITE has
+them, in which each part of data stands once for each sub-picture.
 """
 
 from __future__ import annotations
@@ -133,9 +133,7 @@ class Store:
         if min(ticks) < LEAST_TICKS:
             raise ValueError(f"a sub-picture must last {LEAST_TICKS} ticks or more, not {min(ticks)}")
         tokens = bytes(self._bytes[head:length])
-        self._pictures = [
-            unpack_runs(tokens, repeats=self._repeats, copies=count, copy=copy) for copy in range(count)
-        ]
+        self._pictures = [unpack_runs(tokens, repeats=self._repeats, copies=count, copy=copy) for copy in range(count)]
         self._ticks, self._began, self.shown, self.on = ticks, now, 0, True
 
     def due(self, now: int) -> bool:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import os
+import struct
 import time
 from collections import deque
 from collections.abc import Callable, Iterable
@@ -68,6 +69,7 @@ MAX_IN_FLIGHT = 100
 #: Rates outside are none that a serial line has.
 SENSIBLE_RATES = range(1_200, 20_000_001)
 
+_CYCLE = struct.Struct("<HB")
 _PROBATION = 0.3
 # How long, and how often, a device is greeted at the rate of a session that broke off.
 _STILL_THERE = 0.15
@@ -147,6 +149,7 @@ class HostLink:
         self._fast_again = math.inf  # when a faster rate that failed is due again
         self._fast_patience = RATE_AGAIN
         self._closed = False
+        self._stored = b""  # what the store of this session's device holds
         self._forget()
         self.connect()
 
@@ -224,6 +227,35 @@ class HostLink:
         """Pull the panel's reset line, where the device has one."""
         self._begin()
         self._sequenced(Kind.RESET, b"\1")
+
+    @property
+    def store(self) -> int:
+        """Bytes that the device keeps of sub-pictures to write them in turn; 0 if it does not."""
+        return self.device.store if self.device.features & Feature.CYCLE else 0
+
+    def cycle(self, content: bytes, count: int) -> None:
+        """Have the device write sub-pictures in turn until there is something else to write.
+
+        Parameters
+        ----------
+        content : bytes
+            What `pack_cycle` made of them, no longer than `store`; what of it the device holds already is not sent.
+        count : int
+            How many they are. The panel shows the first one.
+
+        Raises
+        ------
+        LinkError
+            One of its kinds; the device does not cycle then.
+        """
+        self._begin()
+        self.drain()
+        before, self._stored = self._stored, b""
+        changed = [at for at, byte in enumerate(content) if before[at : at + 1] != bytes((byte,))]
+        if changed:
+            self._work.extend(self._pace.stores(content[changed[0] : changed[-1] + 1], changed[0]))
+        self._sequenced(Kind.CYCLE, _CYCLE.pack(len(content), count))
+        self._stored = content + before[len(content) :]
 
     def read_panel(self) -> int:
         """Return a byte read from the panel, for chips that say how they are.
@@ -315,6 +347,7 @@ class HostLink:
         self._deadline = 0.0
         self._settling = False
         self._fault = Fault.NONE
+        self._stored = b""
 
     def _still_there(self) -> bool:
         """Whether a device that a session broke off with answers at that session's rate."""

@@ -391,7 +391,7 @@ def _read_number(payload: bytes, at: int) -> int:
 
 
 def _read_store(seq: int, payload: bytes) -> Store:
-    return Store(seq, *_NUMBER.unpack_from(payload), payload[_NUMBER.size :])
+    return Store(seq, int(_NUMBER.unpack_from(payload)[0]), payload[_NUMBER.size :])
 
 
 def _read_status(seq: int, payload: bytes) -> Status:

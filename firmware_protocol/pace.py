@@ -21,6 +21,8 @@ RESET_SECONDS = 0.02
 #: Seconds that an answer may always take beside wire and bus; and how many deviations from the mean.
 LEAST_PATIENCE = 0.01
 DEVIATIONS = 4
+#: Bytes that say where in the store a message puts its own.
+STORE_HEAD = 2
 #: Payloads up to here are not worth two frames.
 WHOLE = 12
 
@@ -69,9 +71,19 @@ class Pace:
             payloads[cut : cut + 1] = self._overlapping(payloads[cut])
         return _messages(payloads, end)
 
+    def stores(self, content: bytes, offset: int) -> list[Work]:
+        """Return messages that put bytes into the store, from a place in it on."""
+        room = self.payload - STORE_HEAD
+        return [
+            (Kind.STORE, (offset + at).to_bytes(STORE_HEAD, "little") + content[at : at + room])
+            for at in range(0, len(content), room)
+        ]
+
     def again(self, work: Work) -> list[Work]:
         """Return a message in pieces of the size that the line bears now."""
         kind, payload = work
+        if kind == Kind.STORE:
+            return self.stores(payload[STORE_HEAD:], int.from_bytes(payload[:STORE_HEAD], "little"))
         if kind not in (Kind.WRITE, Kind.WRITE_END) or len(payload) <= self.payload:
             return [work]
         return _messages(self._packed(unpack_runs(payload)), kind == Kind.WRITE_END)

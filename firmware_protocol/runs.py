@@ -71,9 +71,7 @@ def pack_runs(runs: Iterable[Run], limit: int, *, repeats: bool = True, whole: i
     return packer.finish()
 
 
-def unpack_runs(
-    payload: bytes, *, repeats: bool = True, copies: int = 1, copy: int = 0
-) -> list[tuple[bool, bytes]]:
+def unpack_runs(payload: bytes, *, repeats: bool = True, copies: int = 1, copy: int = 0) -> list[tuple[bool, bytes]]:
     """Return the runs of a WRITE payload, neighbors of one kind joined, as they go onto the panel's bus.
 
     In a store, each part of data stands in several copies, of which `copy` is the number of the one that is meant.

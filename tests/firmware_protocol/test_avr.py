@@ -181,8 +181,8 @@ def comparable(replies: bytes) -> list[object]:
         assert frame is not None
         message = decode(frame)
         if isinstance(message, HelloReply):
-            said = message.present, message.repeats, message.max_payload, message.window, message.features, message.store
-            found.append((message.nonce, message.version, *said))
+            limits = message.repeats, message.max_payload, message.window, message.store
+            found.append((message.nonce, message.version, message.present, message.features, *limits))
         elif isinstance(message, Status):
             found.append((message.token, message.expected, message.fault, message.damaged))
         else:

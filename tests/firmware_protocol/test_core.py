@@ -119,7 +119,7 @@ def happens(core: Core, what: str) -> list[str]:
         core.now += int(value)
         assert core.receive(b"") == b""
         return [f"= {content.hex()}" for content in core.transactions()]
-    elif name == "reads":
+    if name == "reads":
         core.gives(int(value, 16))
     else:
         core.panel(gone=name == "gone")
