@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
+from paneldraw.onboard import board_of
 from paneldraw.update.greys import (
     GREYS,
     LEAST_RATE,
@@ -30,6 +31,8 @@ if TYPE_CHECKING:
 
 _CLOCK: Final = 400_000.0
 """Bits a second of an I2C bus that does not say."""
+_LOOK: Final = 1.0
+"""Seconds between two looks at a panel whose board cycles by itself."""
 
 
 class Cycling:
@@ -49,6 +52,11 @@ class Cycling:
         Whether the contrast makes sub-pictures worth more than others; or the light at each contrast.
     updates : str
         As `Panel` has it.
+
+    Attributes
+    ----------
+    boarded : bool
+        Whether a board writes the sub-pictures by itself.
 
     Raises
     ------
@@ -86,8 +94,10 @@ class Cycling:
         self._choice: Choice | None = None
         self._still: Levels = np.zeros((chip.height, chip.width), np.uint8)
         self._due = 0.0
+        self.boarded = False
         self._turn = 0
         self._pace: Pace | None = None
+        self._board = None if self._response is not None else board_of(driver, updates)
         self._check()
 
     def _check(self) -> None:
@@ -132,10 +142,16 @@ class Cycling:
         choice = self._chosen(levels, max_level, self.greys)
         if choice is None or choice.cycle.greys < self.greys:
             self._say_fewer(choice)
+        if self._board is not None and choice is not None and choice.seconds:
+            self._stats.cycled_by_host += not self._board.keeps(choice)
         return choice, (2 * levels > max_level).astype(np.uint8)
 
     def _chosen(self, levels: Levels, max_level: int, greys: int) -> Choice | None:
-        return choose(
+        paces = PACES.get(self._driver.controller.name, ())
+        kept = None if self._board is None else self._board.choose(levels, max_level, greys, paces)
+        if kept is not None and kept.cycle.greys == greys:
+            return kept
+        sent = choose(
             self._forecaster,
             levels,
             max_level,
@@ -143,16 +159,18 @@ class Cycling:
             self._clock,
             weighted=self._response is not None,
             bus_share=self._bus_share,
-            paces=PACES.get(self._driver.controller.name, ()),
+            paces=paces,
             lines=self._driver.controller.height,
         )
+        return max((one for one in (kept, sent) if one is not None), key=lambda one: one.cycle.greys, default=None)
 
     def begin(self, choice: Choice | None, still: Levels) -> None:
         """Have the next turn be the first of a picture's."""
         before, driver = self._choice, self._driver
         self._still, self._turn = still, 0
         self._choice = choice if choice is not None and choice.seconds else None
-        driver.moving = None if self._choice is None else self._choice.moving
+        self.boarded = self._board is not None and self._board.keeps(self._choice)
+        driver.moving = None if self._choice is None or self.boarded else self._choice.moving
         if self._choice is None:
             if before is not None and before.cycle.weighted:
                 driver.change(driver.brightness)
@@ -171,7 +189,13 @@ class Cycling:
         choice, driver = self._choice, self._driver
         if choice is None:
             driver.pack(self._still, 1)
-            return driver.show(force, time.perf_counter())
+            wire, messages, changed = driver.show(force, time.perf_counter())
+            return wire + (self._board.end() if self._board is not None else 0), messages, changed
+        if self.boarded:
+            driver.take(choice.packed[0])
+            wire, messages, changed = driver.show(force, time.perf_counter())
+            self._due = time.monotonic() + _LOOK
+            return wire + self.resume(), messages, changed
         turn, lasts = self._turn, choice.seconds[self._turn]
         self._turn = (turn + 1) % len(choice.packed)
         self._due = max(self._due, time.monotonic() - lasts) + lasts
@@ -181,6 +205,12 @@ class Cycling:
         driver.take(choice.packed[turn])
         sent = driver.show(force, time.perf_counter())
         return sent[0] + wire, sent[1] + messages, sent[2]
+
+    def resume(self) -> int:
+        """Have a board go on that was sent something; return the bytes on the wire."""
+        if not self.boarded or self._board is None or self._driver.asleep or self._driver.rest == "off":
+            return 0
+        return self._board.begin()
 
     def _brightness(self, weights: tuple[int, ...], turn: int) -> tuple[bytes, ...]:
         """The commands for the contrast that a sub-picture is worth."""
@@ -192,6 +222,7 @@ class Cycling:
     def stop(self) -> None:
         """Have no sub-picture come."""
         self._choice = self._driver.moving = None
+        self.boarded = False
 
     def settle(self) -> None:
         """Leave the picture without grey: the cycle has ended for good."""

@@ -179,6 +179,20 @@ class Driver:
 
         return self.attempt(operation)
 
+    def leave_to(self, send: Callable[[], int]) -> int:
+        """Let something else write to the chip, which leaves the picture as it is; return the bytes on the wire."""
+
+        def operation() -> int:
+            if not self.ready:
+                self._restore()
+            self.ready = False
+            wire = send()
+            self._planner.doubt()
+            self.ready = True
+            return wire
+
+        return self.attempt(operation)
+
     def look_again(self) -> None:
         """Ask the chip with the next picture whether it still has its power, however lately it was asked."""
         self._looked = float("-inf")

@@ -90,6 +90,8 @@ class Stats:
     """What a panel with `greys` sent of its pictures, the first of each included."""
     fewer_greys: int = 0
     """Pictures of a panel with `greys` that the wire carries in fewer only."""
+    cycled_by_host: int = 0
+    """Pictures in greys of which a board that writes sub-pictures by itself cannot keep as many greys."""
     faults: dict[str, int] = field(default_factory=dict)
     """How many faults of each kind, by the system's name for them."""
 
@@ -821,7 +823,7 @@ class Panel:
                 pixels = self._cared_for(pixels, max_level)
         upright = np.ascontiguousarray(self._upright(pixels))
         choice, still = cycling.choose(upright, max_level)
-        while cycling.going:
+        while cycling.going and not cycling.boarded:
             time.sleep(max(0.0, cycling.due - time.monotonic()))
             if not cycling.within:
                 break
@@ -877,6 +879,8 @@ class Panel:
         with self._lock:
             try:
                 self._driver.change(commands)
+                if self._cycling is not None:
+                    self._cycling.resume()
             finally:
                 self._catch_up()
 

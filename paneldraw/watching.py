@@ -94,6 +94,9 @@ class Watched:
     chip : chip
     """
 
+    store = 0
+    """A board that is watched keeps no sub-pictures, or nobody would see them."""
+
     def __init__(
         self,
         transport: Transport,
