@@ -109,6 +109,8 @@ class HostLink:
     ----------
     device : HelloReply
         What answered.
+    cycling : bool
+        Whether it was told to write sub-pictures in turn, and nothing else since.
 
     Raises
     ------
@@ -150,6 +152,7 @@ class HostLink:
         self._fast_patience = RATE_AGAIN
         self._closed = False
         self._stored = b""  # what the store of this session's device holds
+        self.cycling = False
         self._forget()
         self.connect()
 
@@ -213,6 +216,7 @@ class HostLink:
             begins anew.
         """
         self._begin()
+        self.cycling = False
         self._work.extend(self._pace.writes(runs, end))
         self._pump()
         while len(self._sizes) < len(self._work):
@@ -226,6 +230,7 @@ class HostLink:
     def reset_panel(self) -> None:
         """Pull the panel's reset line, where the device has one."""
         self._begin()
+        self.cycling = False
         self._sequenced(Kind.RESET, b"\1")
 
     @property
@@ -250,12 +255,14 @@ class HostLink:
         """
         self._begin()
         self.drain()
+        self.cycling = False
         before, self._stored = self._stored, b""
         changed = [at for at, byte in enumerate(content) if before[at : at + 1] != bytes((byte,))]
         if changed:
             self._work.extend(self._pace.stores(content[changed[0] : changed[-1] + 1], changed[0]))
         self._sequenced(Kind.CYCLE, _CYCLE.pack(len(content), count))
         self._stored = content + before[len(content) :]
+        self.cycling = count > 0
 
     def read_panel(self) -> int:
         """Return a byte read from the panel, for chips that say how they are.
@@ -348,6 +355,7 @@ class HostLink:
         self._settling = False
         self._fault = Fault.NONE
         self._stored = b""
+        self.cycling = False
 
     def _still_there(self) -> bool:
         """Whether a device that a session broke off with answers at that session's rate."""
@@ -612,6 +620,7 @@ class HostLink:
         while len(self._work) > len(self._sizes):
             self._work.pop()
         self.drain()
+        self.cycling = False
         self._sequenced(Kind.RESET, b"\0")
         self._settling = False
         self._fault = Fault.NONE

@@ -61,8 +61,6 @@ class SerialTransport:
         The port's.
     link : firmware_protocol.HostLink
         The session, with its ``stats``.
-    cycling : bool
-        Whether the board writes sub-pictures in turn, as `cycle` told it to.
 
     Raises
     ------
@@ -102,7 +100,6 @@ class SerialTransport:
             raise TypeError(f"port must be a name, a URL or an object with pyserial's interface, not {port!r}")
         self._answered = False
         self._fresh = False  # whether nothing was sent since the last reset
-        self.cycling = False
         opened = open_port(os.fspath(port), timeout) if named else port
         self.name = str(getattr(opened, "name", None) or getattr(opened, "port", None) or type(opened).__name__)
         try:
@@ -161,17 +158,20 @@ class SerialTransport:
         """Bytes that the board keeps of sub-pictures to write them in turn; 0 where it does not."""
         return self.link.store
 
+    @property
+    def cycling(self) -> bool:
+        """Whether the board writes sub-pictures in turn, as far as is known without asking."""
+        return self.link.cycling
+
     def cycle(self, content: bytes, count: int) -> int:
         """Have the board write sub-pictures in turn until something else is sent; return the bytes on the wire."""
         before = self.link.stats.bytes_sent
         with self._translating():
             self.link.cycle(content, count)
-        self.cycling = True
         return self.link.stats.bytes_sent - before
 
     def reset(self) -> bool:
         """Have the board pulse the panel's reset line, unless nothing was sent since; return whether there is one."""
-        self.cycling = False
         if self.device.reset_line and not self._fresh:
             with self._translating():
                 self.link.reset_panel()
@@ -183,7 +183,7 @@ class SerialTransport:
         self.link.close()
 
     def _write(self, runs: Iterable[Run], end: bool) -> int:
-        self._fresh = self.cycling = False
+        self._fresh = False
         with self._translating():
             wire = self.link.write(runs, end=end)
         self._answered = True

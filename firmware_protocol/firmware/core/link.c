@@ -333,13 +333,21 @@ static void watch(uint16_t now)
     run();
 }
 
-/* Writes the next sub-picture when it is due; what waits and ends the cycle has the first one written at once. */
-static void go_on(void)
+/* Begins what is next: a message that waits, or a sub-picture that is due. What ends a cycle has the first sub-picture
+ * written before, unless it is shown.
+ */
+static void begin_next(void)
 {
-    bool ending = ends_cycle(link.ready.kind);
+    bool ending = cycle_goes_on() && ends_cycle(link.ready.kind);
     if (ending && !cycle_within()) {
         cycle_end();
-    } else if (ending || cycle_due()) {
+        ending = false;
+    }
+    if (may_begin() && !ending) {
+        link.running = link.ready;
+        link.ready.kind = 0;
+        run();
+    } else if (ending || (cycle_goes_on() && cycle_due())) {
         link.running.kind = TURN;
         link.running.start = link.ready.kind ? link.ready.start : in.start;
         run();
@@ -364,13 +372,7 @@ static void work(uint16_t now)
         bus_ended(pd_bus.fault);
         complete();
     }
-    if (cycle_goes_on())
-        go_on();
-    if (!link.running.kind && may_begin()) {
-        link.running = link.ready;
-        link.ready.kind = 0;
-        run();
-    }
+    begin_next();
 }
 
 /* -- frames */
