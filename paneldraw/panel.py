@@ -1075,6 +1075,10 @@ def open_panel(url: str | None = None) -> Panel:
             unless_done.callback(transport.close)
         if watch:
             twin, chip, bus = (None, simulated, bus) if simulated else _simulated(wanted.twin(controller))
+            if wanted.panel.get("greys", 1) > 1:
+                from paneldraw.simulator.averaged import Averaged
+
+                chip = Averaged(chip)
             title = f"{controller.name} {controller.width}x{controller.height}, {wanted.place}"
             transport = watched = watching.Watched(transport, watch, chip, bus, twin, title)
             unless_done.callback(transport.close)

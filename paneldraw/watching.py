@@ -107,6 +107,7 @@ class Watched:
         title: str = "",
     ) -> None:
         self.chip = chip
+        self._averages = hasattr(chip, "glance")
         self._transport, self._twin = transport, twin
         self._look = watch.look
         if watch.realtime:
@@ -136,12 +137,14 @@ class Watched:
         """Send one command message; return the bytes on the wire."""
         wire = self._transport.command(payload)
         self._tell(lambda twin: twin.command(payload))
+        self._glance()
         return wire
 
     def data(self, payload: bytes) -> int:
         """Send one data message; return the bytes on the wire."""
         wire = self._transport.data(payload)
         self._tell(lambda twin: twin.data(payload))
+        self._glance()
         return wire
 
     def batch(self, plan: Plan) -> int:
@@ -151,6 +154,7 @@ class Watched:
         wire = self._transport.batch(plan)
         plan.buffer[starts] = kinds  # where the transport put bytes of its own
         self._tell(lambda twin: twin.batch(plan))
+        self._glance()
         return wire
 
     def reset(self) -> bool:
@@ -159,6 +163,11 @@ class Watched:
         if done:
             self._tell(lambda _: self.chip.reset())
         return done
+
+    def _glance(self) -> None:
+        """Let an eye that averages see what is there, for a recording."""
+        if self._file and self._averages:
+            self.chip.glance()
 
     def _tell(self, tell: Callable[[Transport], object]) -> None:
         """Let the twin know what the panel got; what goes wrong with it is no concern of the panel's."""
