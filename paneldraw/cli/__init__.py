@@ -197,6 +197,14 @@ def _add_demo(commands: _Commands) -> None:
     )
     length.add_argument("--frames", type=_positive(int), metavar="N", help="how many frames, instead of --seconds")
     parser.add_argument("--fps", type=_positive(float, 1000), default=30.0, metavar="N", help="frames a second (30)")
+    parser.add_argument(
+        "--greys", type=int, choices=[3, 4, 5, 8, 16], metavar="N", help="as many greys on a panel of one bit (SSD1306)"
+    )
+
+
+def _with(url: str, greys: int) -> str:
+    """A panel's URL, with so many greys."""
+    return f"{url}{'&' if '?' in url else '?'}greys={greys}"
 
 
 def _save_path(text: str) -> Path:
@@ -219,6 +227,8 @@ def _demo(options: argparse.Namespace) -> int:
     if options.save and not math.isfinite(frames):
         raise _UserError("a file cannot hold an endless demo; give --seconds a number")
     _check_folder(options.save)
+    if options.greys:
+        options.panel = _with(options.panel or os.environ.get("PANELDRAW_PANEL") or "sim://ssd1306", options.greys)
     with _opened(options) as panel:
         url = options.panel or os.environ.get("PANELDRAW_PANEL") or ""
         if panel.simulated is None and "on_close=" not in url:
@@ -442,7 +452,7 @@ def _check(options: argparse.Namespace) -> int:
         playback.print_panel(panel, f"must show: {shows}")
 
     if options.greys:
-        found = check.run_greys(lambda greys: open_panel(f"{url}{joint}greys={greys}"), show, check.ask)
+        found = check.run_greys(lambda greys: open_panel(_with(url, greys)), show, check.ask)
     else:
         with open_panel(f"{url}{joint}updates=whole") as panel:
             found = check.run(panel, show, check.ask)

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 
 from paneldraw.pacing import Frames
 from paneldraw.simulator import Frame, TerminalView, save
+from paneldraw.simulator.averaged import WINDOW, Averaged
 from paneldraw.simulator.recorder import Showing
 from paneldraw.watching import watched
 
@@ -55,8 +56,15 @@ class Progress:
 
 
 def simulated(panel: Panel) -> Showing | None:
-    """Return the chip behind a panel if it is a simulated one."""
-    return panel.simulated if isinstance(panel.simulated, Showing) else None
+    """Return the chip behind a panel if it is a simulated one, in greys as an eye sees it."""
+    if not isinstance(panel.simulated, Showing):
+        return None
+    return Averaged(panel.simulated) if in_greys(panel) else panel.simulated
+
+
+def in_greys(panel: Panel) -> bool:
+    """Whether a panel shows greys by sub-pictures, for which an eye needs a moment."""
+    return panel.depth > panel.controller.depth
 
 
 def print_panel(panel: Panel, caption: str) -> None:
@@ -65,6 +73,8 @@ def print_panel(panel: Panel, caption: str) -> None:
     if chip is None or watched(panel):
         print(caption)
         return
+    if in_greys(panel):
+        time.sleep(2 * WINDOW)
     with TerminalView() as view:
         view.show(chip, caption)
 
@@ -99,23 +109,28 @@ def play(demo: Demo, panel: Panel, name: str, *, frames: float, fps: float, save
     """
     chip = simulated(panel)
     seen = watched(panel)
-    real_time = save_to is None and (chip is None or seen or sys.stdout.isatty())
+    real_time = in_greys(panel) or (save_to is None and (chip is None or seen or sys.stdout.isatty()))
     still = save_to is not None and save_to.suffix.lower() == ".png"
-    start = _seconds_after_midnight() if real_time else TEN_PAST_TEN
+    start = _seconds_after_midnight() if real_time and save_to is None else TEN_PAST_TEN
     fb = panel.framebuffer()
     recording: list[Frame] = []
     drawn = total_bytes = 0
-    whole = fb.width * fb.height * fb.depth // 8
+    before, whole = panel.stats.wire_bytes, fb.width * fb.height * fb.depth // 8
     with contextlib.ExitStack() as stack:
         view = stack.enter_context(TerminalView()) if chip and not seen else None
         progress = stack.enter_context(Progress("drawing")) if not (chip and sys.stdout.isatty()) else None
         for index in _paced(int(frames - 1) if still else 0, frames, fps, real_time):
             demo(fb, start + index / fps)
-            sent = panel.show(fb).wire_bytes
+            panel.show(fb)
+            if still:
+                panel.flush()
+            sent = panel.stats.wire_bytes - before - total_bytes
             drawn, total_bytes = drawn + 1, total_bytes + sent
+            if still and in_greys(panel):
+                time.sleep(2 * WINDOW)
             if save_to:
-                pixels = (chip.pixels if chip else fb.pixels).copy()
-                recording.append(Frame(pixels, index / fps, sent, max_level=fb.max_level))
+                shown, max_level = (chip.pixels, chip.max_level) if chip else (fb.pixels, fb.max_level)
+                recording.append(Frame(shown.copy(), index / fps, sent, max_level=max_level))
             each = f"{total_bytes / drawn:.0f} bytes{' each' if drawn > 1 else ''}"
             caption = f"{name}: {_count(drawn, 'frame')}, {each} on the wire for {whole} of pixels"
             if view:
