@@ -52,7 +52,8 @@ class Averaged:
         with contextlib.suppress(ValueError):  # not one scan is over
             light = np.minimum(self._chip.seen(WINDOW) / full, 1.0)
             return np.floor(light * _LEVELS + 0.5).astype(np.uint8)
-        return np.asarray(self._chip.pixels * np.uint8(_LEVELS // self._chip.max_level))
+        found: Picture = self._chip.pixels * np.uint8(_LEVELS // self._chip.max_level)
+        return found
 
     @property
     def history(self) -> int | None:
