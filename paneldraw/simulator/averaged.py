@@ -51,8 +51,9 @@ class Averaged:
         full = self._chip._light or 1.0
         with contextlib.suppress(ValueError):  # not one scan is over
             light = np.minimum(self._chip.seen(WINDOW) / full, 1.0)
-            return np.floor(light * _LEVELS + 0.5).astype(np.uint8)
-        found: Picture = self._chip.pixels * np.uint8(_LEVELS // self._chip.max_level)
+            found: Picture = np.floor(light * _LEVELS + 0.5).astype(np.uint8)
+            return found
+        found = self._chip.pixels * np.uint8(_LEVELS // self._chip.max_level)
         return found
 
     @property

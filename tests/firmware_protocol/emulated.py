@@ -128,6 +128,10 @@ class Board:
         """Say what byte the panel gives when it is read."""
         self.c.rig_gives(self.rig, status)
 
+    def frames(self, seconds: float) -> None:
+        """Have the panel's frame line pulse every so many seconds, or no more with 0."""
+        self.c.rig_frames(self.rig, round(seconds * HZ))
+
     def reset(self, *, power: bool = False) -> None:
         self.c.rig_reset(self.rig, power)
 

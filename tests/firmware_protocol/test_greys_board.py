@@ -7,10 +7,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from emulated import HZ, Board, BoardPort
+from emulated import HZ, Board, BoardPort, built
 from simulated import Noise, SimulatedPort
 from smbus2 import i2c_msg
 
+from firmware_protocol import HostLink
+from firmware_protocol.cycle import pack_cycle
 from paneldraw import Panel, Supersample, simulator
 from paneldraw.controllers import SSD1306
 from paneldraw.transports import SerialTransport
@@ -217,3 +219,29 @@ def test_the_reference_device_cycles_as_well() -> None:
         assert set(np.round(lit[levels == 3], 2)) == {1.0}
         assert not lit[levels == 0].any()
     assert chip.violations == []
+
+
+def times(board: Board, seconds: float) -> list[float]:
+    """Return when the board begins to write sub-pictures."""
+    until, found = board.cycle + round(seconds * HZ), []
+    while board.cycle < until:
+        board.run(board.cycle + HZ // 100_000)
+        found += [board.cycle / HZ for content in board.transactions() if content == bytes.fromhex("00b00810")]
+    return found
+
+
+def test_the_frame_line_sets_the_pace(tmp_path: Path) -> None:
+    board = Board(*built(tmp_path, "-DPD_FRAME_LINE=1"))
+    board.run(HZ // 20)
+    link = HostLink(port := BoardPort(board), clock=port.clock)
+    assert link.device.frame_line
+    pictures = [[(False, bytes.fromhex("b00810")), (True, bytes((byte,)))] for byte in (1, 2)]
+    link.cycle(pack_cycle(pictures, (0.01, 0.02)), 2)
+    board.transactions()
+    for pace, wanted in ((0.0103, (0.0103, 0.0206)), (0.0, (0.0125, 0.025)), (0.0096, (0.0096, 0.0192))):
+        board.frames(pace)
+        times(board, 0.06)  # the first ones began at the old pace
+        lasts = np.diff(times(board, 0.2))
+        assert min(abs(lasts[0] - each) for each in wanted) < 5e-5
+        np.testing.assert_allclose(np.sort(lasts[:6]), np.repeat(wanted, 3), atol=5e-5)
+    board.close()

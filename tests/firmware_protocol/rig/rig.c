@@ -71,7 +71,7 @@ struct rig {
     uint32_t overruns;
     bool spi_sending, spi_seen;
     uint8_t spi_byte, pins;
-    uint32_t spi_fastest;
+    uint32_t spi_fastest, frame_cycles;
 };
 
 static uint8_t *reg(struct rig *rig, avr_io_addr_t at)
@@ -586,6 +586,24 @@ void rig_panel(struct rig *rig, bool absent, bool stuck, long nack_after)
 void rig_gives(struct rig *rig, uint8_t byte)
 {
     rig->gives = byte;
+}
+
+static uint64_t pulse(avr_t *avr, uint64_t when, void *param)
+{
+    struct rig *rig = param;
+    avr_irq_t *line = avr_io_getirq(avr, AVR_IOCTL_IOPORT_GETIRQ('D'), 2);
+    avr_raise_irq(line, 1);
+    avr_raise_irq(line, 0);
+    return rig->frame_cycles ? when + rig->frame_cycles : 0;
+}
+
+/* Lets the panel's frame line pulse every so many cycles, or no more. */
+void rig_frames(struct rig *rig, uint32_t cycles)
+{
+    avr_cycle_timer_cancel(rig->avr, pulse, rig);
+    rig->frame_cycles = cycles;
+    if (cycles)
+        avr_cycle_timer_register(rig->avr, cycles, pulse, rig);
 }
 
 /* Pulls the reset pin, or cuts the power. */
