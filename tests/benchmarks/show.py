@@ -68,7 +68,9 @@ ROWS = [
     gray_row("one pixel changed, 16 grays", "gray_noise", "gray_noise_and_a_pixel"),
     # luma's is drawn with Pillow, and has no axes.
     Row(
-        "a chart of 128 points, drawn and shown", 2, "chart(one); chart(other)",
+        "a chart of 128 points, drawn and shown",
+        2,
+        "chart(one); chart(other)",
         (Against(LUMA, "chart(one); chart(other)"),),
     ),
     Row("a chart of 128 points, drawn and shown, 16 grays", 2, "gray_chart(one); gray_chart(other)"),
