@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
 from typing import Any, Final
 
 import numpy as np
@@ -49,12 +48,11 @@ class Averaged:
     def pixels(self) -> Picture:
         """Light of each pixel, 0 to 15, where 15 is lit all the time at the present contrast."""
         full = self._chip._light or 1.0
-        with contextlib.suppress(ValueError):  # not one scan is over
+        try:
             light = np.minimum(self._chip.seen(WINDOW) / full, 1.0)
-            found: Picture = np.floor(light * _LEVELS + 0.5).astype(np.uint8)
-            return found
-        found = self._chip.pixels * np.uint8(_LEVELS // self._chip.max_level)
-        return found
+        except ValueError:  # not one scan is over
+            light = self._chip.pixels / self._chip.max_level
+        return np.asarray(np.floor(light * _LEVELS + 0.5), np.uint8)
 
     @property
     def history(self) -> int | None:
