@@ -21,11 +21,15 @@ DIRECTIVES = (
 # Wheels travel, so nothing is made for this processor; no fused multiplications, so all processors round alike.
 # -O3 takes a quarter more of the build and draws no faster, but for rows of bytes, which it takes eight times as fast.
 FLAGS = ["-O2", "-g0", "-ffp-contract=off"]
+if sys.platform == "linux":  # what only C++ and debuggers read: a twentieth
+    FLAGS += ["-fno-asynchronous-unwind-tables", "-fno-unwind-tables"]
 # Without the names of what only the module itself calls, it is an eighth smaller.
 LINKED = ["-Wl,-s"][: sys.platform == "linux"]
 # -O1 for what runs once a call.
 FAST = ("paneldraw.raster.blit", "paneldraw.raster.dither", "paneldraw.controllers.packing")
-LEVELS = {LISTED["RUNTIME"]: ["-O1"], **{name: ["-O3"] for name in FAST}}
+# -Os halves the speed of a call, so it is for what is called rarely.
+RARE = "paneldraw.framebuffer.copying"
+LEVELS = {LISTED["RUNTIME"]: ["-O1"], RARE: ["-Os"], **{name: ["-O3"] for name in FAST}}
 # No module, though it is built like one: simulator/preload.py gives it to other programs.
 PRELOAD = [
     Extension(

@@ -164,11 +164,11 @@ def test_the_wheel_holds_the_packages_and_nothing_else(wheel):
     assert {name.partition("/")[0] for name in names} == {"paneldraw", "firmware_protocol", INFO, DATA}
     assert [name for name in names if name.startswith(DATA)] == [f"{DATA}/data/share/man/man1/paneldraw.1"]
     kinds = {Path(name).suffix for name in names if ".dist-info/" not in name}
-    assert kinds <= {".py", ".pxd", ".typed", ".md", ".txt", ".html", ".c", ".h", ".ld", ".hex", ".1", ""}
+    assert kinds <= {".py", ".typed", ".md", ".txt", ".html", ".c", ".h", ".ld", ".hex", ".1", ""}
     expected = {
         str(file.relative_to(PROJECT))
         for package in ("paneldraw", "firmware_protocol")
-        for pattern in ("**/*.py", "**/*.pxd", "py.typed", "PROTOCOL.md", "**/*.txt", "simulator/page.html")
+        for pattern in ("**/*.py", "py.typed", "PROTOCOL.md", "**/*.txt", "simulator/page.html")
         for file in (PROJECT / package).glob(pattern)
     }
     expected.update(name for name in versioned() if name.startswith("firmware_protocol/firmware/"))
