@@ -134,19 +134,33 @@ def load_when_needed() -> None:
     sys.meta_path.insert(0, _WhenNeeded())
 
 
+def advice() -> str:
+    """Say why this install is not compiled, and which command mends it."""
+    compiled = sorted(file.name for ending in ("so", "pyd") for file in PACKAGE.glob(f"_runtime.*.{ending}"))
+    foreign = [name for name in compiled if not name.endswith(tuple(importlib.machinery.EXTENSION_SUFFIXES))]
+    if foreign:
+        return f"what is compiled here is for another Python or machine ({foreign[0]}); run: {_reinstall()}"
+    return f"install a C compiler, then run: {rebuild()}"
+
+
 def rebuild() -> str:
     """Return the command that compiles this install where there is a C compiler now.
 
     What was built without one is in pip's cache, and pip would install that again; a wheel from elsewhere was not built
     here at all.
     """
+    return _reinstall("--no-binary", "paneldraw")
+
+
+def _reinstall(*options: str) -> str:
+    """Return the command that installs what this install was installed from."""
     import shlex
 
     if importlib.util.find_spec("pip"):
         command = [sys.executable, "-m", "pip", "install", "--force-reinstall", "--no-deps", "--no-cache-dir"]
     else:  # uv made this environment
         command = ["uv", "pip", "install", "--python", sys.executable, "--reinstall", "--no-deps", "--no-cache"]
-    return shlex.join([*command, "--no-binary", "paneldraw", *_origin()])
+    return shlex.join([*command, *options, *_origin()])
 
 
 def _origin() -> list[str]:
@@ -173,7 +187,7 @@ def _warn() -> None:
     """Say once that drawing is slow where it need not be, as a compiler is a package away."""
     if sys.platform == "linux":
         warnings.warn(
-            f"paneldraw draws interpreted, which is slow; install a C compiler, then run: {rebuild()}",
+            f"paneldraw draws interpreted, which is slow; {advice()}",
             RuntimeWarning,
             stacklevel=2,
         )

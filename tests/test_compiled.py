@@ -162,6 +162,22 @@ def test_sources_say_once_that_they_are_slow_and_what_mends_it(sources):
     assert warned(PROJECT, draw) == []
 
 
+@pytest.mark.skipif(sys.platform != "linux", reason="where a compiler is a package away")
+def test_a_wheel_for_another_machine_says_so_and_what_mends_it(sources):
+    foreign = sources.folder / "paneldraw/_runtime.cpython-39-riscv64-linux-gnu.so"
+    foreign.touch()
+    try:
+        (said,) = warned(sources.folder, "import paneldraw.framebuffer")
+        told = " ".join(run(sources.folder, "from paneldraw.cli.diagnostics import _speed; print(_speed())"))
+    finally:
+        foreign.unlink()
+    reason = "what is compiled here is for another Python or machine (_runtime.cpython-39-riscv64-linux-gnu.so); run: "
+    for line in (said, told):
+        command = line.partition(reason)[2]
+        assert command.startswith(f"{sys.executable} -m pip install --force-reinstall --no-deps --no-cache-dir ")
+        assert "--no-binary" not in command
+
+
 def test_a_cython_of_the_users_own_stays(sources):
     code = """if True:
         import sys, types

@@ -1,6 +1,6 @@
 """Builds wheels for Linux on x86-64 and ARM, on any of them: `python tools/wheels.py [--out DIR] [MACHINE ...]`.
 
-Zig's C compiler, which comes as a Python package, makes code for all of them, and links with the glibc of 2012; Debian's
+Zig's C compiler, which comes as a Python package, makes code for all of them and links with the glibc of 2012. Debian's
 packages have each machine's Python headers. Auditwheel then says which glibc a wheel really asks for, and gives it its
 name. Abi3audit has nothing to say here, as the limited API draws half as fast.
 
@@ -42,8 +42,8 @@ build_wheel(os.environ["OUT"])
 """
 
 
-class BuildError(Exception):
-    """A wheel was not built, or is not what it should be; the argument says what to do, or what a command said."""
+class CommandError(Exception):
+    """A command failed, or what came of it is not what it should be; the argument is what it said."""
 
 
 @dataclass(frozen=True)
@@ -79,18 +79,18 @@ MACHINES = (
 ARMEL = Machine("armv6l", "armel", "arm-linux-gnueabi", ("-mcpu=arm1176jzf_s", "-mfloat-abi=softfp"), "-", ARM6)
 
 
-def run(command: Iterable[str | Path], folder: Path, **environment: str) -> str:
-    """Return what a command prints; what it needs of the environment is given by name."""
+def run(command: Iterable[str | Path], folder: Path, *, errors: bool = False, **environment: str) -> str:
+    """Return what a command prints, as errors too if wanted; what it needs of the environment is given by name."""
     words = [str(word) for word in command]
     try:
         done = subprocess.run(
             words, cwd=folder, env=os.environ | environment, stdin=subprocess.DEVNULL, capture_output=True, text=True
         )
     except FileNotFoundError as missing:
-        raise BuildError(f"{missing.filename}: not there; .ci/apt-packages says what it belongs to") from None
+        raise CommandError(f"{missing.filename}: not there; .ci/apt-packages says what it belongs to") from None
     if done.returncode:
-        raise BuildError(f"{' '.join(words)}\n{done.stdout[-4000:]}{done.stderr[-4000:]}")
-    return done.stdout
+        raise CommandError(f"{' '.join(words)}\n{done.stdout[-4000:]}{done.stderr[-4000:]}")
+    return done.stdout + (done.stderr if errors else "")
 
 
 def copy_of_the_project(folder: Path, without: tuple[str, ...] = ()) -> Path:
@@ -131,7 +131,7 @@ class Workshop:
         """Return the folder of a Python's headers for a machine, from Debian's package."""
         folder = self.folder / f"{machine.debian}-{version}"
         if not folder.exists():
-            unpacked = _unpack(f"libpython{version}-dev", PYTHONS[version], machine.debian, folder.with_suffix(".deb"))
+            unpacked = _unpack(f"libpython{version}-dev", PYTHONS[version], machine.debian, folder.with_name(f"{folder.name}-deb"))
             include = unpacked / "usr/include"
             shutil.copytree(include / f"python{version}", folder)
             # What stands there in its place includes it.
@@ -162,12 +162,12 @@ class Workshop:
         """Return a copy of a wheel under its right name; auditwheel has to agree that it needs no newer glibc."""
         folder = wheel.parent
         if machine.audited != "-":
-            command = [self.python, "-m", "auditwheel", "repair", "--only-plat", "-z", "9", "-w", folder / "audited", wheel]
-            run(command, self.folder)
+            repair = ["repair", "--only-plat", "-z", "9", "-w", folder / "audited"]
+            run([self.python, "-m", "auditwheel", *repair, wheel], self.folder)
             (wheel,) = (folder / "audited").glob("*.whl")
             policy = f"manylinux_{GLIBC.replace('.', '_')}_{machine.audited or machine.name}"
             if policy not in wheel.name:
-                raise BuildError(f"{wheel.name}: auditwheel does not find it to be {policy}")
+                raise CommandError(f"{wheel.name}: auditwheel does not find it to be {policy}")
         command = [self.python, "-m", "wheel", "tags", "--python-tag", tag, "--abi-tag", tag]
         if machine.audited:
             command += ["--platform-tag", machine.tag]
@@ -175,7 +175,7 @@ class Workshop:
 
 
 def _unpack(package: str, suite: str, architecture: str, folder: Path) -> Path:
-    """Unpack one of Debian's packages, of any suite and machine, and return the folder; this machine's stay as they are."""
+    """Unpack one of Debian's packages, of any suite and machine, and return the folder; nothing is installed."""
     for part in ("lists/partial", "archives/partial"):
         (folder / part).mkdir(parents=True)
     (folder / "status").touch()
@@ -209,7 +209,7 @@ def mirror() -> str:
 
 
 def _check(wheel: Path, machine: Machine) -> None:
-    """Raise BuildError if a wheel lacks a module, or has one for another processor."""
+    """Raise CommandError if a wheel lacks a module, or has one for another processor."""
     listed = {"__file__": str(PROJECT / "paneldraw/_compiled.py")}
     exec((PROJECT / "paneldraw/_compiled.py").read_text(encoding="utf-8"), listed)
     expected = {listed["RUNTIME"], *listed["MODULES"], "paneldraw.simulator._preload"}
@@ -217,12 +217,12 @@ def _check(wheel: Path, machine: Machine) -> None:
         libraries = [name for name in file.namelist() if name.endswith(".so")]
         found = {name.partition(".")[0].replace("/", ".") for name in libraries}
         if found != expected:
-            raise BuildError(f"{wheel.name}: not compiled: {', '.join(sorted(expected - found))}")
+            raise CommandError(f"{wheel.name}: not compiled: {', '.join(sorted(expected - found))}")
         for name in libraries if machine.needs else ():
             noted = run(["readelf", "-A", file.extract(name, folder)], PROJECT)
             for line in machine.needs:
                 if not re.search(rf"^ *{line}$", noted, re.M):
-                    raise BuildError(f"{wheel.name}: {name} is not for {line}")
+                    raise CommandError(f"{wheel.name}: {name} is not for {line}")
 
 
 def main() -> int:
@@ -238,14 +238,14 @@ def main() -> int:
             parser.error(f"no machine is called {name!r}; there are {', '.join(known)}")
     try:
         if not mirror():
-            raise BuildError("no Debian, whose packages have the headers of Python: run this in a container of it")
+            raise CommandError("no Debian, whose packages have the headers of Python: run this in a container of it")
         with tempfile.TemporaryDirectory() as folder:
             workshop = Workshop(Path(folder))
             for name in arguments.machine or known:
                 for version in arguments.python or PYTHONS:
                     wheel = workshop.build(known[name], version, arguments.out)
                     print(f"{wheel} {wheel.stat().st_size / 1e6:.2f} MB", flush=True)
-    except BuildError as failure:
+    except CommandError as failure:
         print(failure, file=sys.stderr)
         return 1
     return 0

@@ -95,9 +95,9 @@ def describe(panel: Panel) -> str:
 
 def _speed() -> str:
     from paneldraw._compiled import COMPILED
-    from paneldraw._interpreted import rebuild
+    from paneldraw._interpreted import advice
 
-    return "compiled" if COMPILED else f"interpreted, which is slow; install a C compiler, then run: {rebuild()}"
+    return "compiled" if COMPILED else f"interpreted, which is slow; {advice()}"
 
 
 def _machine() -> str:
