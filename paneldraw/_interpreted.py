@@ -137,7 +137,7 @@ def load_when_needed() -> None:
 def advice() -> str:
     """Say why this install is not compiled, and which command mends it."""
     compiled = sorted(file.name for ending in ("so", "pyd") for file in PACKAGE.glob(f"_runtime.*.{ending}"))
-    foreign = [name for name in compiled if not name.endswith(tuple(importlib.machinery.EXTENSION_SUFFIXES))]
+    foreign = [name for name in compiled if name.removeprefix("_runtime") not in importlib.machinery.EXTENSION_SUFFIXES]
     if foreign:
         return f"what is compiled here is for another Python or machine ({foreign[0]}); run: {_reinstall()}"
     return f"install a C compiler, then run: {rebuild()}"

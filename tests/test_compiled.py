@@ -173,6 +173,7 @@ def test_a_wheel_for_another_machine_says_so_and_what_mends_it(sources):
         foreign.unlink()
     reason = "what is compiled here is for another Python or machine (_runtime.cpython-39-riscv64-linux-gnu.so); run: "
     for line in (said, told):
+        assert reason in line
         command = line.partition(reason)[2]
         assert command.startswith(f"{sys.executable} -m pip install --force-reinstall --no-deps --no-cache-dir ")
         assert "--no-binary" not in command

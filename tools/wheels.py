@@ -131,7 +131,9 @@ class Workshop:
         """Return the folder of a Python's headers for a machine, from Debian's package."""
         folder = self.folder / f"{machine.debian}-{version}"
         if not folder.exists():
-            unpacked = _unpack(f"libpython{version}-dev", PYTHONS[version], machine.debian, folder.with_name(f"{folder.name}-deb"))
+            unpacked = _unpack(
+                f"libpython{version}-dev", PYTHONS[version], machine.debian, folder.with_name(f"{folder.name}-deb")
+            )
             include = unpacked / "usr/include"
             shutil.copytree(include / f"python{version}", folder)
             # What stands there in its place includes it.

@@ -52,7 +52,9 @@ TESTS = [
     *(str(file.relative_to(PROJECT)) for file in sorted((PROJECT / "tests").glob("**/test_*patterns.py"))),
     *("tests/raster/test_half_pixels.py", "tests/raster/test_blit.py", "tests/test_framebuffer_parts.py"),
     *("tests/test_update_registers.py", "tests/test_update_ways.py", "tests/simulator/test_ssd1306.py"),
-    *("tests/simulator/test_sh1106.py", "tests/simulator/test_ssd1322.py", *(f"tests/demos/test_demos.py::test_{name}" for name in ("demos_look_as_they_did", "a_demo_of_sixteen_shades_looks_as_it_did"))),
+    *("tests/simulator/test_sh1106.py", "tests/simulator/test_ssd1322.py"),
+    "tests/demos/test_demos.py::test_demos_look_as_they_did",
+    "tests/demos/test_demos.py::test_a_demo_of_sixteen_shades_looks_as_it_did",
 ]
 #: Of what is searched for the packing, which has no other tests.
 PROPERTIES = ["tests/controllers/test_packing.py"]
