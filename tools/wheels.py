@@ -36,7 +36,7 @@ import os, sysconfig
 from setuptools.build_meta import build_wheel
 sysconfig.get_config_vars().update(
     CC=os.environ["CC"], CFLAGS="-DNDEBUG -fwrapv", OPT="", CCSHARED="-fPIC", LDFLAGS="",
-    LDSHARED=os.environ["CC"] + " -shared", EXT_SUFFIX=os.environ["SUFFIX"],
+    LDSHARED=os.environ["CC"] + " -shared -s -O2", EXT_SUFFIX=os.environ["SUFFIX"],
 )
 build_wheel(os.environ["OUT"])
 """
@@ -50,15 +50,15 @@ class CommandError(Exception):
 class Machine:
     """A kind of processor: what Python, Debian and Zig call it, the compiler's options, and the bits of its addresses.
 
-    `audited` is the name under which auditwheel knows it. `needs` is what the compiler notes in a file of the
-    processor that it is for.
+    `audited` is the name under which auditwheel knows it, if it is another, or None for a wheel
+    that only tests use. `needs` is what the compiler notes in a file of the processor that it is for.
     """
 
     name: str
     debian: str
     triple: str
     options: tuple[str, ...] = ()
-    audited: str = ""
+    audited: str | None = ""
     needs: tuple[str, ...] = ()
 
     @property
@@ -76,7 +76,7 @@ MACHINES = (
 )
 #: The code of armv6l's wheel but for how functions are given numbers with a fraction: as in Debian's armel, which is
 #: all software that ARMv6 can run.
-ARMEL = Machine("armv6l", "armel", "arm-linux-gnueabi", ("-mcpu=arm1176jzf_s", "-mfloat-abi=softfp"), "-", ARM6)
+ARMEL = Machine("armv6l", "armel", "arm-linux-gnueabi", ("-mcpu=arm1176jzf_s", "-mfloat-abi=softfp"), None, ARM6)
 
 
 def run(command: Iterable[str | Path], folder: Path, *, errors: bool = False, **environment: str) -> str:
@@ -151,7 +151,7 @@ class Workshop:
             self.tree,
             CC=" ".join([self.zig, "cc", *options]),
             SUFFIX=f".cpython-{tag}-{machine.triple}.so",
-            _PYTHON_HOST_PLATFORM=f"linux-{machine.audited.strip('-') or machine.name}",
+            _PYTHON_HOST_PLATFORM=f"linux-{machine.audited or machine.name}",
             OUT=str(built),
         )
         (wheel,) = built.glob("*.whl")
@@ -161,19 +161,16 @@ class Workshop:
         return Path(shutil.copy2(named, out))
 
     def _named(self, wheel: Path, tag: str, machine: Machine) -> Path:
-        """Return a copy of a wheel under its right name; auditwheel has to agree that it needs no newer glibc."""
-        folder = wheel.parent
-        if machine.audited != "-":
-            repair = ["repair", "--only-plat", "-z", "9", "-w", folder / "audited"]
-            run([self.python, "-m", "auditwheel", *repair, wheel], self.folder)
-            (wheel,) = (folder / "audited").glob("*.whl")
+        """Give a wheel its right name and return it; auditwheel has to agree that it needs no newer glibc."""
+        platform = machine.tag
+        if machine.audited is not None:
             policy = f"manylinux_{GLIBC.replace('.', '_')}_{machine.audited or machine.name}"
-            if policy not in wheel.name:
-                raise CommandError(f"{wheel.name}: auditwheel does not find it to be {policy}")
-        command = [self.python, "-m", "wheel", "tags", "--python-tag", tag, "--abi-tag", tag]
-        if machine.audited:
-            command += ["--platform-tag", machine.tag]
-        return wheel.parent / run([*command, wheel], wheel.parent).split()[-1]
+            said = run([self.python, "-m", "auditwheel", "show", wheel], self.folder)
+            if f'platform tag: "{policy}"' not in " ".join(said.split()):
+                raise CommandError(f"{wheel.name}: auditwheel does not find it to be {policy}\n{said}")
+            platform = platform if machine.audited else policy
+        tags = [f"--python-tag={tag}", f"--abi-tag={tag}", f"--platform-tag={platform}"]
+        return wheel.parent / run([self.python, "-m", "wheel", "tags", *tags, wheel], wheel.parent).split()[-1]
 
 
 def _unpack(package: str, suite: str, architecture: str, folder: Path) -> Path:
