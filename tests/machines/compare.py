@@ -58,6 +58,8 @@ TESTS = [
 ]
 #: Of what is searched for the packing, which has no other tests.
 PROPERTIES = ["tests/controllers/test_packing.py"]
+#: Where the instructions are told.
+PAGE = PROJECT / "docs/pi_zero.md"
 #: One wheel at a time, as they share a folder.
 BUILDING = threading.Lock()
 
@@ -231,9 +233,12 @@ def compare(machine: Machine, workshop: wheels.Workshop, root: Future[Path], exp
     for chosen in (["-m", marked, "-k", "not interpreted", *TESTS], PROPERTIES):
         tests = work.emulate("-m", "pytest", "-p", "no:cacheprovider", "-rf", *chosen)
         print(f"{name}: tests, {lap()}: {tests.strip().splitlines()[-1]}", flush=True)
+    strays = []
     if name == COUNTED:
-        print(work.count(), flush=True)
-    return not groups and not said
+        rows = work.count()
+        strays = instructions.strays(PAGE.read_text(encoding="utf-8"), rows)
+        print(f"{rows}\n{name}: counted, {lap()}; otherwise than {PAGE.name} says: {strays or 'none'}", flush=True)
+    return not (groups or said or strays)
 
 
 def judged(name: str, answer: Future[bool]) -> bool:

@@ -62,6 +62,15 @@ def table(said: str) -> str:
     return "\n".join(["| call | instructions | at 1 GHz |", "|---|---:|---:|", *rows])
 
 
+def strays(page: str, rows: str) -> list[str]:
+    """Return the calls whose instructions are not those that a page tells, by more than a tenth."""
+    told, found = (
+        {call: int(number.replace(",", "")) for call, number in re.findall(r"^\| `(.*)` \| ([\d,]+) \|", text, re.M)}
+        for text in (page, rows)
+    )
+    return [call for call in {**told, **found} if abs(told.get(call, 0) - found.get(call, 0)) * 10 > told.get(call, 0)]
+
+
 def main() -> None:
     """Make every call, and have the counter told before and after."""
     for name, call in calls():

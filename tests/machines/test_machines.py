@@ -9,6 +9,7 @@ from urllib.error import HTTPError, URLError
 
 import c_warnings
 import compare
+import instructions
 import pytest
 import random_shapes
 
@@ -50,6 +51,33 @@ def test_a_difference_is_named():
     theirs = "aa circle, depth 1, aliased\ncc line, depth 2, aliased\ndd arc, depth 4, aliased\n"
     assert compare.differences(ours, ours) == []
     assert sorted(compare.differences(ours, theirs)) == ["arc, depth 4, aliased", "line, depth 2, aliased"]
+
+
+COUNTED = """call nothing
+call line
+call show
+counted 9999
+counted 2000
+counted 7
+counted 42000
+counted 7
+counted 4002000
+"""
+
+
+def test_instructions_are_told_less_what_counting_takes_and_strays_are_named():
+    rows = instructions.table(COUNTED)
+    assert rows.splitlines()[2:] == ["| `line` | 2,000 | 0.002 ms |", "| `show` | 200,000 | 0.200 ms |"]
+    assert instructions.strays(rows, rows) == []
+    assert instructions.strays(rows.replace("2,000 |", "2,150 |"), rows) == []
+    assert instructions.strays(rows.replace("| 2,000 |", "| 1,800 |"), rows) == ["line"]
+    assert instructions.strays("", rows) == ["line", "show"]
+
+
+def test_the_page_tells_all_that_is_counted():
+    names = [name for name, call in instructions.calls() if call() is not NotImplemented][1:]
+    told = re.findall(r"^\| `(.*)` \|", compare.PAGE.read_text(encoding="utf-8"), re.M)
+    assert told == names
 
 
 MIRROR = "http://debian.example"
