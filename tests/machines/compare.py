@@ -152,7 +152,7 @@ class Work:
     def install(self, wheel: Path) -> None:
         """Have the machine's own pip install a wheel beside the tests, which find no other package."""
         wheels.copy_of_the_project(self.folder, without=("paneldraw", "firmware_protocol"))
-        command = ["-m", "pip", "install", "--no-deps", "--no-index", "--target", str(self.folder)]
+        command = ["-m", "pip", "install", "--no-compile", "--no-deps", "--no-index", "--target", str(self.folder)]
         if not self.machine.fits:
             command += ["--only-binary=:all:", f"--platform={self.machine.wheel.tag}"]
         self.emulate(*command, str(wheel))
