@@ -101,6 +101,15 @@ def _take_out():
 
 
 @pytest.fixture
+def micropython_names(monkeypatch):
+    """The names that `micropython.install` gives are as they were after the test."""
+    for name in ("framebuf", "machine", "micropython", "utime"):
+        monkeypatch.setitem(sys.modules, name, None)
+    for name in ("sleep_ms", "sleep_us", "ticks_ms", "ticks_us", "ticks_add", "ticks_diff"):
+        monkeypatch.setattr(f"time.{name}", None, raising=False)
+
+
+@pytest.fixture
 def own_time(monkeypatch):
     """A time for panels that only their own pauses pass, so that no busy machine ends their patience."""
     pauses = [1000.0]

@@ -109,7 +109,7 @@ COMPILED = tuple(f"{name}." for name in _compiled.MODULES)
     at_both_speeds(WITH_EXAMPLE, [path for path in WITH_EXAMPLE if path.startswith(COMPILED)]),
     indirect=["package"],
 )
-def test_examples_run_as_printed(package, path, tmp_path, monkeypatch):
+def test_examples_run_as_printed(package, path, tmp_path, monkeypatch, micropython_names):
     monkeypatch.chdir(tmp_path)
     test = examples(path)
     assert test.examples

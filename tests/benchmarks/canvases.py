@@ -194,6 +194,7 @@ def skia() -> Names:
         "LINES": skia.Canvas.PointMode.kLines_PointMode,
         "hairline": paint(False, 0),
         "filled": paint(False),
+        "covered": skia.Paint(Color=skia.ColorWHITE, Style=skia.Paint.kStrokeAndFill_Style, StrokeWidth=1),
         "smooth": paint(True),
         "thin": paint(True, 1),
         "wide": paint(True, 3),

@@ -166,7 +166,7 @@ def aliased() -> list[Row]:
             "filled cubic curve",
             N,
             "for table in curves: bezier(table, fill=True)",
-            (Against("Skia", "for one in skia_curves: drawPath(one, filled)"),),
+            (Against("Skia", "for one in skia_curves: drawPath(one, covered)"),),
         ),
         Row(
             "arrow",

@@ -20,12 +20,8 @@ PAGE = HERE.parent.parent / "docs" / "coming_from" / "micropython.md"
 
 
 @pytest.fixture
-def installed(monkeypatch):
+def installed(micropython_names):
     """MicroPython's modules by their own names, for as long as a test takes."""
-    for name in ("framebuf", "machine", "micropython", "utime"):
-        monkeypatch.setitem(sys.modules, name, None)
-    for name in ("sleep_ms", "sleep_us", "ticks_ms", "ticks_us", "ticks_add", "ticks_diff"):
-        monkeypatch.setattr(time, name, None, raising=False)
     micropython.install()
 
 

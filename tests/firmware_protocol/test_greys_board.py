@@ -230,8 +230,8 @@ def times(board: Board, seconds: float) -> list[float]:
     return found
 
 
-def test_the_frame_line_sets_the_pace(tmp_path: Path) -> None:
-    board = Board(*built(tmp_path, "-DPD_FRAME_LINE=1"))
+def test_the_frame_line_sets_the_pace() -> None:
+    board = Board(*built("-DPD_FRAME_LINE=1"))
     board.run(HZ // 20)
     link = HostLink(port := BoardPort(board), clock=port.clock)
     assert link.device.frame_line

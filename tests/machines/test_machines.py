@@ -25,7 +25,8 @@ def groups(package, monkeypatch):
     """Some of the groups, drawn with the package at one of its speeds."""
     smooth = [getattr(package, type(kind).__name__)(*values(kind)) for kind in random_shapes.SMOOTH]
     monkeypatch.setattr(random_shapes, "SMOOTH", smooth)
-    monkeypatch.setattr(random_shapes, "Framebuffer", package.Framebuffer)
+    for name in ("Framebuffer", "Gradient", "Pattern"):
+        monkeypatch.setattr(random_shapes, name, getattr(package, name))
     return list(random_shapes.groups())[::41]
 
 
