@@ -166,7 +166,7 @@ def aliased() -> list[Row]:
             "filled cubic curve",
             N,
             "for table in curves: bezier(table, fill=True)",
-            (Against("Skia", "for one in skia_curves: drawPath(one, covered)"),),
+            (Against("Skia", "for one in closed_curves: drawPath(one, covered)"),),
         ),
         Row(
             "arrow",
@@ -452,6 +452,7 @@ def skia() -> Names:
         "skia_regular": paths("regular", True),
         "skia_paths": paths("paths", False),
         "skia_curves": [curve(points) for points in halves(made["lists"]["curves"])],
+        "closed_curves": [curve(points).close() for points in halves(made["lists"]["curves"])],
         "oval": oval(LARGE),
         "wide_oval": oval(LARGE + 0.5),
     }
