@@ -29,7 +29,7 @@ from paneldraw import Panel, simulator
 from paneldraw.pacing import Beat
 
 HERE = Path(__file__).parent
-PAGES = ("tutorial.md", "trouble.md", "urls.md")
+PAGES = ("tutorial.md", "trouble.md", "urls.md", "which_panel.md")
 """Pages whose pictures and printed lines are made so."""
 TURNS = 12
 """Of a loop without an end."""

@@ -1,4 +1,4 @@
-"""The pictures of which_panel.md: the test card of `paneldraw check` on simulated modules that are driven wrongly."""
+"""Pictures of trouble.md and which_panel.md: the test card of `paneldraw check` on simulated modules that are driven wrongly."""
 
 from __future__ import annotations
 
@@ -98,5 +98,5 @@ def draw(symptom: Symptom) -> Image.Image:
 
 
 def pictures() -> dict[str, Callable[[], Image.Image]]:
-    """What draws each picture of the page, by its file name."""
+    """What draws each of them, by its file name."""
     return {f"panels/{name}.png": partial(draw, symptom) for name, symptom in SYMPTOMS.items()}

@@ -122,7 +122,7 @@ def test_the_unit_has_what_a_service_needs():
 def test_shops_call_panels_what_the_page_says():
     from paneldraw.controllers import CHIPS
 
-    text = TEXTS[DOCS / "howto" / "which_panel.md"]
+    text = (DOCS / "which_panel.md").read_text(encoding="utf-8")
     named = re.findall(r"\b(SSD\d+|SH\d+|ST\d+|MAX\d+|PCD\d+|HT\d+K\d+|IS\d+FL\d+)\b", text)
     assert {name.lower() for name in named} <= set(CHIPS)
     sizes = re.findall(r"^\| [^|]+ \| (\w+)(?: or \w+)?, (\d+x\d+)", text, re.M)

@@ -18,6 +18,7 @@ import symptoms
 import paneldraw
 from paneldraw import Panel, cli, open_panel, simulator, urls
 from paneldraw.controllers import CHIPS, SSD1306
+from paneldraw.pacing import Beat
 from paneldraw.transports import i2c
 
 PROJECT = Path(__file__).parent.parent
@@ -100,6 +101,20 @@ def test_all_code_runs_as_it_is_printed(name):
     assert [step.printed for step in done if step.text is not None] == [
         step.text for step in done if step.text is not None
     ]
+
+
+def test_each_step_of_the_tutorial_goes_in_place_of_the_last_block_before_it(tmp_path, monkeypatch):
+    written, last = "", ""
+    monkeypatch.setattr(Panel, "frames", lambda panel, fps: [Beat(number, number, 0) for number in range(12)])
+    monkeypatch.setenv("PANELDRAW_PANEL", "sim://ssd1306")
+    found = blocks(DOCS / "tutorial.md", "python")
+    for code in found[:-1]:
+        kept, begin, last = code.rpartition("\nwith ") if "\nwith " in code else ("", "", code)
+        written += kept
+        names = {}
+        exec(written + begin + last, names)
+        assert names["panel"].simulated.pixels.sum() > 40
+    assert len(found) == 7
 
 
 @pytest.mark.parametrize(("name", "draw"), steps.pictures().items())
