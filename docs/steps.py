@@ -1,7 +1,7 @@
 """Pages that are run as they are printed: one block after the other, in one interpreter, on simulated panels.
 
 A picture below a block of Python is what the block left on the panel that it calls `panel`, or its `picture`; a GIF is
-all that the panel showed. A block of text below one is what it printed. Clocks stand at nine past ten, and go on where
+all that the panel showed, or a list of pictures. A block of text below one is what it printed. Clocks stand at nine past ten, and go on where
 the code sleeps or waits for the next frame; what would go on for ever ends after a few turns.
 """
 
@@ -81,7 +81,8 @@ def run(page: str) -> list[Step]:
 def _seen(names: dict[str, Any], *, moving: bool) -> list[Image.Image]:
     """What a block left behind, as it looks."""
     if "picture" in names:
-        return [names.pop("picture")]
+        picture = names.pop("picture")
+        return picture if moving else [picture]
     chip = names["panel"].simulated
     pictures = [frame.pixels for frame in chip.frames] if moving else [chip.pixels]
     return [simulator.image(pixels, scale=3, max_level=chip.max_level) for pixels in pictures]

@@ -1,4 +1,4 @@
-"""Pictures of trouble.md and which_panel.md: the test card of `paneldraw check` on simulated modules that are driven wrongly."""
+"""Pictures of trouble.md and which_panel.md: the test card of `paneldraw check` on modules that are driven wrongly."""
 
 from __future__ import annotations
 
