@@ -1,8 +1,8 @@
 """Pages that are run as they are printed: one block after the other, in one interpreter, on simulated panels.
 
 A picture below a block of Python is what the block left on the panel that it calls `panel`, or its `picture`; a GIF is
-all that the panel showed, or a list of pictures. A block of text below one is what it printed. Clocks stand at nine past ten, and go on where
-the code sleeps or waits for the next frame; what would go on for ever ends after a few turns.
+all that the panel showed, or a list of pictures. A block of text below one is what it printed. Clocks stand at nine
+past ten, and go on where the code sleeps or waits for the next frame; what would go on for ever ends after a few turns.
 """
 
 from __future__ import annotations

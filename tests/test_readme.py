@@ -13,6 +13,7 @@ import pytest
 from PIL import Image
 
 from paneldraw import Framebuffer, open_panel, simulator
+from paneldraw.controllers import CHIPS
 
 PROJECT = Path(__file__).parent.parent
 
@@ -75,7 +76,19 @@ def test_the_pictures_are_what_the_package_draws_now(name):
 
 def test_every_link_leads_to_a_file():
     for target in re.findall(r"\]\(([^)]+)\)", pictures.README.read_text(encoding="utf-8")):
-        assert target.startswith("https://") or (PROJECT / target).is_file(), target
+        assert target.startswith("https://") or (PROJECT / target.partition("#")[0]).is_file(), target
+
+
+def test_its_figures_are_those_of_the_page_that_says_how_fast():
+    readme = pictures.README.read_text(encoding="utf-8")
+    page = (PROJECT / "docs" / "benchmarks.md").read_text(encoding="utf-8")
+    pillow, opencv = re.search(r"^\| line, one call a line \|.*Pillow ([\d.]+), OpenCV ([\d.]+),", page, re.M).groups()
+    luma = re.search(r"^\| one pixel changed \|.*luma\.oled (\d+),", page, re.M)[1]
+    mean = round(float(re.search(r"^\| mean \| ([\d.]+) \|", page, re.M)[1]))
+    said = " ".join(readme.split())
+    assert f"for a line Pillow takes {pillow} and OpenCV {opencv} times as long, and luma.oled {luma} times" in said
+    assert f"over ten scenes a frame costs {mean} bytes on average" in said
+    assert f"{len(CHIPS)} simulated chips" in said
 
 
 def test_the_set_up_is_two_lines():
