@@ -41,7 +41,7 @@ def _row(found: re.Match[str]) -> tuple[str, str, str]:
     ratios = [
         f"{peer['peer'].strip()} {_short(float(peer['ratio']))}" for peer in _PEER.finditer(found["peers"].strip())
     ]
-    return found["name"], found["ours"].replace("us", "µs"), ", ".join(ratios)
+    return found["name"], found["ours"].replace(" us", "\N{NO-BREAK SPACE}µs"), ", ".join(ratios)
 
 
 def _short(ratio: float) -> str:

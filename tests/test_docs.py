@@ -75,7 +75,7 @@ def test_the_pictures_of_the_gallery_differ():
 
 @pytest.mark.parametrize("call", sorted(name for name in dir(Framebuffer(1, 1)) if not name.startswith("_")))
 def test_every_drawing_call_is_in_the_gallery(call):
-    assert call in NOT_DRAWING or re.search(rf"\bfb\.{call}\(", CODE)
+    assert call in NOT_DRAWING or re.search(rf"\b(fb|part)\.{call}\(", CODE)
 
 
 WORDS = "even-odd nonzero covered shared dda bayer floyd-steinberg corner box gaussian radius closed dash key palette"

@@ -17,6 +17,7 @@ import smbus2
 from blinka import Busio
 
 from paneldraw import Framebuffer, Panel, simulator
+from paneldraw.pacing import Frames
 
 PAGES = Path(__file__).parents[2] / "docs" / "coming_from"
 LOGS = Path(__file__).parents[1] / "golden"
@@ -50,7 +51,12 @@ class Shown(NamedTuple):
 def run(monkeypatch: pytest.MonkeyPatch) -> Callable[[str], Shown]:
     """Run a script as printed on a simulated SSD1306, in no time."""
     clock = [0.0]
-    monkeypatch.setattr("time.sleep", lambda seconds: clock.append(clock.pop() + max(seconds, 0)))
+
+    def sleep(seconds: float) -> None:
+        clock[0] += max(seconds, 0)
+
+    monkeypatch.setattr("time.sleep", sleep)
+    monkeypatch.setattr(Panel, "frames", lambda panel, fps: Frames(fps, clock=lambda: clock[0], sleep=sleep))
     monkeypatch.setattr("time.perf_counter", lambda: clock[0])
     monkeypatch.setattr("time.monotonic", lambda: clock[0])
     # Their script's end must not clear a panel that is not there any more.
