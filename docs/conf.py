@@ -58,6 +58,8 @@ myst_heading_anchors = 4
 myst_links_external_new_tab = False
 # Pages are read on GitHub too, where quotes stay as they are written.
 smartquotes_action = "D"
+linkcheck_anchors = False  # a thread's comments come by JavaScript
+linkcheck_retries = 3
 suppress_warnings = ["ref.python"]  # `bus` may be one of many
 
 autodoc_member_order = "bysource"
