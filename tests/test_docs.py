@@ -36,7 +36,7 @@ from paneldraw.raster.surface import OPS
 from paneldraw.simulator import LOOKS
 
 DOCS = Path(__file__).parent.parent / "docs"
-NOT_DRAWING = {"antialias", "depth", "height", "max_level", "pixels", "save", "to_image", "turned", "width"}
+NOT_DRAWING = {"antialias", "depth", "height", "max_level", "pixels", "save", "to_image", "width"}
 
 
 ENTRIES = list(gallery.entries())
