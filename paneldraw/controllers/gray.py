@@ -1,12 +1,41 @@
 """OLED chips of 16 grays, two pixels a byte, addressed by windows, the SH1122 by rows.
 
 Sources are those of `paneldraw.controllers.oled`; where they disagree it says so.
+
+A level of these chips is lit for as many clocks of its line as a table says, which they take on ``B8``. Their own table
+(``B9``, of the SSD1325 that of Newhaven's code) leaves level 1 dark, or half the level at a third of the light. Here the
+steps are even, and the longest is near that of their own, so that brightness and scan stay as they were. What light the
+precharge adds is not known.
 """
 
 from __future__ import annotations
 
+import itertools
+
 from paneldraw.controllers.chip import Chip, Module
 from paneldraw.controllers.record import Contrast, PagePointer, Scroll, Window
+
+
+def _even(clocks: int) -> tuple[int, ...]:
+    """Pulses of levels 0 to 15, so many clocks from each to the next."""
+    return tuple(range(0, 16 * clocks, clocks))
+
+
+def _table(pulses: tuple[int, ...]) -> str:
+    """Command for the pulses of levels 1 to 15."""
+    return f"B8 {bytes(pulses[1:]).hex(' ')}"
+
+
+def _steps(pulses: tuple[int, ...]) -> str:
+    """The SSD1325's: the first pulse, and what each one behind has more, less 1; two a byte, the lower half first."""
+    first, *more = (high - low for low, high in itertools.pairwise(pulses))
+    pairs = bytes(low - 1 | high - 1 << 4 for low, high in zip(more[::2], more[1::2], strict=True))
+    return f"B8 {first:02X} {pairs.hex(' ')}"
+
+
+_PULSES_1327 = _even(2)  # B9 has them up to 28
+_PULSES_1325 = _even(4)  # Newhaven's up to 66; B2 leaves room for 71
+_PULSES_1322 = _even(8)  # B9 has them up to 112
 
 
 def _window(m: Module) -> Window:
@@ -27,13 +56,14 @@ SSD1327 = Chip(
     remap=(0x51, 0x03, 0x10),  # split COM lines, reversed, columns from the right
     init=lambda m: (
         f"FD 12, AE, A8 {m.multiplex}, A1 00, A2 {m.offset}, A0 {m.remap:02X}, AB 01, 81 53, B1 51, "
-        "B3 01, B9, BC 08, BE 07, B6 01, D5 62, 2E, A4"
+        f"B3 01, {_table(_PULSES_1327)}, BC 08, BE 07, B6 01, D5 62, 2E, A4"
     ),
     overrides=("first_com",),
     window=_window,
     drive=lambda m: ("B1 51, BC 08, BE 07", "B1 51, BC 00, BE 00", "B1 21, BC 00, BE 00", "B1 11, BC 00, BE 00"),
     facts={
         "packing": "nibbles",
+        "pulses": _PULSES_1327,
         "resync": b"\xb2" * 15,
         "normal": b"\xa4",
         "all_on": b"\xa5",
@@ -53,20 +83,27 @@ SSD1325 = Chip(
     remap=(0x52, 0x03, 0x10),  # split COM lines, reversed, columns from the left
     init=lambda m: (
         f"AE, B3 91, A8 {m.multiplex}, A2 {m.offset}, A1 00, AD 02, A0 {m.remap:02X}, 86, "
-        "B8 01 11 22 32 43 54 65 76, 81 70, B2 51, B1 55, BC 10, B4 02, B0 28, BE 1C, BF 0F, A4"
+        f"{_steps(_PULSES_1325)}, 81 70, B2 51, B1 55, BC 10, B4 02, B0 28, BE 1C, BF 0F, A4"
     ),
     overrides=("first_com",),
     window=_window,
     contrast=Contrast(highest=0x7F),
     drive=lambda m: ("B1 55, BC 10, BE 1C, 86", "B1 55, BC 00, BE 00, 86", "B1 11, BC 00, BE 00, 84"),
-    facts={"packing": "nibbles", "resync": b"\xe3" * 8, "normal": b"\xa4", "all_on": b"\xa5"},
+    facts={
+        "packing": "nibbles",
+        "pulses": _PULSES_1325,
+        "resync": b"\xe3" * 8,
+        "normal": b"\xa4",
+        "all_on": b"\xa5",
+    },
 )
 
 
 def _ssd1362(m: Module) -> str:
     return (
         f"FD 12, AE, 23 00, 81 9F, A0 {m.remap:02X}, A1 00, A2 {m.offset}, A4, A8 {m.multiplex}, AB 01, "
-        f"AD {'9E' if m.internal_reference else '8E'}, B1 22, B3 A0, B6 04, B9, BC 04, BE 05"
+        f"AD {'9E' if m.internal_reference else '8E'}, B1 22, B3 A0, B6 04, "
+        f"{_table(_PULSES_1327)}, BC 04, BE 05"
     )
 
 
@@ -83,7 +120,13 @@ SSD1362 = Chip(
     overrides=("first_com", "internal_reference"),
     window=_window,
     drive=lambda m: ("B1 22, BC 04, BE 05", "B1 22, BC 00, BE 00", "B1 11, BC 00, BE 00"),
-    facts={"packing": "nibbles", "resync": b"\xe3" * 15, "normal": b"\xa4", "all_on": b"\xa5"},
+    facts={
+        "packing": "nibbles",
+        "pulses": _PULSES_1327,
+        "resync": b"\xe3" * 15,
+        "normal": b"\xa4",
+        "all_on": b"\xa5",
+    },
 )
 
 SSD1322 = Chip(
@@ -106,8 +149,8 @@ SSD1322 = Chip(
     },
     remap=(0x14, 0x02, 0x10),  # columns from the left, nibbles in order, lines from the last, as vendors' code has it
     init=lambda m: (
-        f"FD 12, AE, B3 91, CA {m.multiplex}, A2 {m.offset}, A1 00, AB 01, B4 A0 FD, C1 9F, C7 0F, B9, B1 E2, "
-        f"D1 A2 20, BB 1F, B6 08, BE 07, A6, A9, A0 {m.remap:02X} {_dual(m):02X}"
+        f"FD 12, AE, B3 91, CA {m.multiplex}, A2 {m.offset}, A1 00, AB 01, B4 A0 FD, C1 9F, C7 0F, "
+        f"{_table(_PULSES_1322)}, 00, B1 E2, D1 A2 20, BB 1F, B6 08, BE 07, A6, A9, A0 {m.remap:02X} {_dual(m):02X}"
     ),
     overrides=("first_com",),
     window=lambda m: Window(
@@ -123,6 +166,7 @@ SSD1322 = Chip(
     drive=lambda m: ("B1 E2, BB 1F, BE 07", "B1 E2, BB 00, BE 00", "B1 32, BB 00, BE 00"),
     facts={
         "packing": "nibbles",
+        "pulses": _PULSES_1322,
         "arguments_are_data": True,
         "resync": b"",  # D/C low always begins a command
         "all_on": b"\xa5",
@@ -151,5 +195,6 @@ SH1122 = Chip(
     overrides=("first_com", "charge_pump"),
     pointer=PagePointer(row_argument=True),
     drive=lambda m: ("D9 22, DB 35, DC 35", "D9 22, DB 00, DC 00", "D9 11, DB 00, DC 00"),
+    # It takes no table, and what light its levels have is not known here: even steps are assumed.
     facts={"packing": "nibbles", "all_on": b"\xa5", "follow": (b"\xa4",)},
 )

@@ -304,6 +304,9 @@ class Controller:
         Whether arguments of commands go as data, with D/C high, which rules I2C out. Default: False.
     chained_control : bool
         Whether the chip takes I2C control bytes with the continuation bit well, clones included. Default: False.
+    pulses : tuple of int
+        Clocks that a pixel of each level is lit, as `init` has it, where the chip takes a table of them. Light goes by
+        them: they are even steps, so that half the level is half the light. Default: the chip takes none.
     resync : bytes
         Commands that do nothing, enough of them to satisfy a command that was cut off before its arguments.
     power_on, power_off, normal : bytes
@@ -351,6 +354,7 @@ class Controller:
     registers: Registers | None = None
     arguments_are_data: bool = False
     chained_control: bool = False
+    pulses: tuple[int, ...] = ()
     resync: bytes = b"\xe3" * 6
     power_on: bytes = b"\xaf"
     power_off: bytes = b"\xae"

@@ -290,7 +290,7 @@ class DisplayChip(Chip):
         Returns
         -------
         numpy.ndarray
-            Shape (height, width); 1 is a pixel that is lit all the time at the highest contrast.
+            Shape (height, width); 1 is a pixel of the highest level all the time at the highest contrast.
 
         Raises
         ------
@@ -332,6 +332,11 @@ class DisplayChip(Chip):
     def _light(self) -> float:
         """Light of a lit pixel, as the contrast has it: the segment current of the SSD1306's sheet is in proportion."""
         return self.contrast / self.highest_contrast
+
+    @property
+    def _shares(self) -> NDArray[np.float64]:
+        """Light of each level, of that of the highest."""
+        return np.arange(self.max_level + 1) / self.max_level
 
     def _scan_order(self) -> NDArray[np.float64]:
         """When in a scan each visible line is lit, from 0 to 1."""

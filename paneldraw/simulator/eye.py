@@ -157,7 +157,7 @@ class Timeline:
         for moment, change in self._changes(sorted_moments):
             stop = len(order) if change is None else int(np.searchsorted(sorted_moments, moment))
             if stop > at:
-                seen = twin._look() * (twin._light / twin.max_level)
+                seen = (twin._shares * twin._light)[twin._look()]
                 lines[scan[at:stop], line[at:stop]] = (seen.T if twin.transposed else seen)[line[at:stop]]
                 at = stop
             _apply(twin, change)

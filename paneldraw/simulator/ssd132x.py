@@ -5,14 +5,15 @@ from __future__ import annotations
 import itertools
 from typing import Any, ClassVar
 
+import numpy as np
+from numpy.typing import NDArray
+
 from .addressing import ACROSS, DOWN, NIBBLES, windows
 from .commands import DISPLAY, LOCK, Command, Commands, choice, nothing, relative, setting
 from .display_chip import DisplayChip
 from .glass import Module
 from .scroll import Scroll
 
-LINEAR = tuple(range(0, 30, 2))
-"""Pulse widths of levels 1 to 15 after reset."""
 _OSCILLATOR, _STEP = 600_000, 20_000
 
 
@@ -22,8 +23,17 @@ def _greys(chip: Any, sent: bytes) -> None:
     chip.registers.greys = tuple(sent[1:])
 
 
-def _linear(chip: Any, sent: bytes) -> None:
-    chip.registers.greys = LINEAR
+def _table(last: int) -> Commands:
+    """Pulse widths of levels 1 to 15 in clocks, which after reset and B9 are even from level 1 on, which is dark."""
+    linear = tuple(range(0, last + 1, last // 14))
+
+    def select(chip: Any, sent: bytes) -> None:
+        chip.registers.greys = linear
+
+    return {
+        0xB8: Command(15, _greys, {"greys": linear}, name="gray table"),
+        0xB9: Command(0, select, {"greys": linear}, name="linear gray table"),
+    }
 
 
 #: What the SSD132x have in common.
@@ -42,8 +52,7 @@ GREY: Commands = {
     0xB3: setting("clock", 0x00, name="clock {1:02X}"),
     0xB5: setting("gpio", 0x02),
     0xB6: setting("second_precharge", 0x04, range(1, 16), "the second precharge period is 01 to 0F"),
-    0xB8: Command(15, _greys, {"greys": LINEAR}, name="gray table"),
-    0xB9: Command(0, _linear, {"greys": LINEAR}, name="linear gray table"),
+    **_table(28),
     0xBE: setting("vcomh", 0x05, range(8), "the VCOMH level is 00 to 07", harmless=True),
     0xFD: LOCK,
 }
@@ -78,8 +87,24 @@ class GreyChip(DisplayChip):
     def frame_seconds(self) -> float:
         """How long the chip takes to show its RAM once, at about 600 kHz of its oscillator's code 0."""
         r = self.registers
-        clocks = (r.phases & 0x0F) + (r.phases >> 4) + self.longest_pulse
-        return float(clocks * (r.multiplex + 1) * ((r.clock & 0x0F) + 1) / (_OSCILLATOR + _STEP * (r.clock >> 4)))
+        clocks = self._line_clocks * (r.multiplex + 1)
+        return float(clocks * ((r.clock & 0x0F) + 1) / (_OSCILLATOR + _STEP * (r.clock >> 4)))
+
+    @property
+    def _line_clocks(self) -> int:
+        """Clocks a line: two phases, the longest pulse, and 10 beside it."""
+        r = self.registers
+        return int((r.phases & 0x0F) + (r.phases >> 4) + self._pulses[-1] + 10)
+
+    @property
+    def _pulses(self) -> tuple[int, ...]:
+        """Clocks that levels 1 to 15 are lit."""
+        pulses: tuple[int, ...] = self.registers.greys
+        return pulses
+
+    @property
+    def _shares(self) -> NDArray[np.float64]:
+        return np.array((0, *self._pulses)) / (self._pulses[-1] or 1)
 
     @property
     def mode(self) -> int:
@@ -123,7 +148,7 @@ class SSD1327(GreyChip):
 
     Parameters, attributes and errors are those of `simulator.SSD1306`. Modules stand upright under A0 51, that of 96x64
     under A0 42.
-    What an eye sees is given in levels, whatever the grey table makes of them. A scroll moves by a column address, two
+    `pixels` are in levels, `seen` is the light that the grey table makes of them. A scroll moves by a column address, two
     pixels, a step; the sheet says "one column".
 
     Examples
@@ -180,6 +205,13 @@ class SSD1327(GreyChip):
         return self.segment_remap != bool(self.registers.remap & 0x02)
 
 
+def _steps(chip: Any, sent: bytes) -> None:
+    first, *pairs = sent[1:]
+    if any(byte & 0x88 for byte in (first & 0x0F, *pairs)) or first & 0xF0:
+        chip.complain("steps of the grey table are 0 to 7, that of level 1 and then two a byte", sent)
+    chip.registers.steps = (first & 7, *(byte >> shift & 7 for byte in pairs for shift in (0, 4)))
+
+
 def _fill(chip: Any, sent: bytes) -> None:
     _, left, top, right, bottom, pattern = sent
     if left > right or top > bottom or right >= chip.columns or bottom >= chip.lines:
@@ -231,8 +263,9 @@ class SSD1325(GreyChip):
         0xA2: setting("offset", 0x00, range(80), "the display offset is 00 to 4F", mask=0x7F, harmless=True),
         0xA8: setting("multiplex", 79, range(15, 80), "the multiplex ratio is 0F to 4F (16 to 80 lines)", mask=0x7F),
         0xAD: setting("master", 0x03, (0x02, 0x03), "the master configuration takes 02 or 03", harmless=True),
-        0xB8: nothing("gray table", 8),
-        **dict.fromkeys((0xB0, 0xB2, 0xB4, 0xBF), nothing("timing {1:02X}", 1)),
+        0xB2: setting("row_period", 0x25),
+        0xB8: Command(8, _steps, {"steps": (1,) * 15}, name="gray table"),
+        **dict.fromkeys((0xB0, 0xB4, 0xBF), nothing("timing {1:02X}", 1)),
         0xB9: relative("linear grey table of the SSD1327"),
         0xBC: setting("precharge_voltage", 0x00),
         0xBE: setting("vcomh", 0x00),
@@ -248,6 +281,16 @@ class SSD1325(GreyChip):
     def high_first(self) -> bool:
         """Whether the upper half of a byte is the pixel nearer to column 0."""
         return self.segment_remap != bool(self.registers.remap & 0x02)
+
+    @property
+    def _line_clocks(self) -> int:
+        return int(self.registers.row_period)
+
+    @property
+    def _pulses(self) -> tuple[int, ...]:
+        """Each is longer than the one before by its step and one clock."""
+        first, *more = self.registers.steps
+        return tuple(itertools.accumulate((first, *(step + 1 for step in more))))
 
     @property
     def scan(self) -> tuple[int, int, int, bool, int]:
@@ -315,6 +358,17 @@ def _remap(chip: Any, sent: bytes) -> None:
     chip.registers.remap, chip.registers.dual_com = sent[1], bool(sent[2] & 0x10)
 
 
+def _use_table(chip: Any, sent: bytes) -> None:
+    chip.registers.greys = chip.registers.table
+
+
+def _greys_to_come(chip: Any, sent: bytes) -> None:
+    """The SSD1322's table, which is used from 00 on."""
+    before = chip.registers.greys
+    _greys(chip, sent)
+    chip.registers.table, chip.registers.greys = chip.registers.greys, before
+
+
 def _write_ram(chip: Any, sent: bytes) -> None:
     chip.registers.writing = True
 
@@ -355,7 +409,9 @@ class SSD1322(GreyChip):
         **GREY,
         **choice("display", 0xA6, {opcode: opcode for opcode in range(0xA4, 0xA8)}, "display mode {display:02X}"),
         **windows(120, 128, 0x15, 0x75),
-        0x00: nothing("gray table in use"),
+        **_table(112),
+        0x00: Command(0, _use_table, name="gray table in use"),
+        0xB8: Command(15, _greys_to_come, {"table": tuple(range(0, 113, 8))}, name="gray table"),
         0x5C: Command(0, _write_ram, {"writing": False}, name="data follows"),
         0x5D: nothing("data is read from the RAM"),
         0xA0: Command(2, _remap, {"remap": 0x00, "dual_com": False}, name="remap {1:02X} {2:02X}"),
