@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 import warnings
 from collections.abc import Sequence
@@ -22,6 +23,7 @@ from paneldraw.update.greys import (
     Pace,
     Response,
     choose,
+    in_greys,
 )
 
 if TYPE_CHECKING:
@@ -83,7 +85,7 @@ class Cycling:
         Cycle(greys)
         if not 0 < bus_share <= 1:
             raise ValueError(f"bus_share must be above 0 and at most 1, not {bus_share!r}")
-        if bus_clock is not None and not bus_clock > 0:
+        if bus_clock is not None and not 0 < bus_clock < math.inf:
             raise ValueError(f"bus_clock must be Hz above 0, or None, not {bus_clock!r}")
         self._driver, self._stats, self.greys = driver, stats, greys
         self._bus_share, self._clock = bus_share, bus_clock or _bits_a_second(driver.transport)
@@ -139,7 +141,7 @@ class Cycling:
 
     def choose(self, levels: Levels, max_level: int) -> tuple[Choice | None, Levels]:
         """Return the cycle for a picture, as the unturned glass has it, and the picture without grey."""
-        choice = self._chosen(levels, max_level, self.greys)
+        choice = self._chosen(in_greys(levels, max_level, self.greys), self.greys - 1, self.greys)
         if choice is None or choice.cycle.greys < self.greys:
             self._say_fewer(choice)
         if self._board is not None and choice is not None and choice.seconds:

@@ -107,6 +107,7 @@ class Driver:
         self._unsure: npt.NDArray[np.bool_] | None = None  # bytes of RAM that single steps of a scroll brought in
         self._settled = 0.0  # when such a step is over
         self.ready = self.shown = False
+        self._doubted = False  # what another thread says while this one ends with `ready`
         self._lit = False
         self._refresh = refresh
         self._watched = False  # whether the chip answers its status right
@@ -152,6 +153,7 @@ class Driver:
         """Bring the picture onto the panel; return bytes on the wire, messages, changed bytes."""
         if (
             force
+            or self._doubted
             or (self._watched and now - self._looked > _LOOK and not self._alive(now))
             or (self._refresh is not None and now - self._started > self._refresh)
         ):
@@ -193,6 +195,10 @@ class Driver:
 
         return self.attempt(operation)
 
+    def doubt(self) -> None:
+        """Start the chip anew with the next picture, also where one is being sent just now."""
+        self.ready, self._doubted = False, True
+
     def look_again(self) -> None:
         """Ask the chip with the next picture whether it still has its power, however lately it was asked."""
         self._looked = float("-inf")
@@ -219,7 +225,7 @@ class Driver:
     def wake(self) -> None:
         """End the sleep, in which a chip that says whether it is on says the same with and without its set-up."""
         if self.asleep and self._watched:
-            self.ready = False
+            self.doubt()
         self.asleep = False
 
     def leave(self, on_close: str) -> None:
@@ -279,6 +285,7 @@ class Driver:
         commands = [*chip.init, *mode, *self.brightness(), *effect, *self.kept, *self._rest()]
         if self._started:
             self.stats.restarts += 1
+        self._doubted = False
         self._lit = self._watched = self._stirred = self._scrolling = False
         self._unsure, self._settled = None, 0.0
         self.transport.reset()

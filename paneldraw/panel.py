@@ -141,8 +141,8 @@ class Panel:
         whole, as plainly.
     greys : int, optional
         3, 4, 5, 8 or 16 greys on a panel of one bit, black and white among them, by sub-pictures that the eye averages:
-        a thread sends them while a picture has grey. `show` hands the picture to it and returns at once. Default: 1,
-        none but black and white.
+        a thread sends them while a picture has grey. `show` hands the picture to it and returns at once. What has more
+        levels is rounded so that rows keep their light. Default: 1, none but black and white.
     bus_share : float, optional
         How much of the wire the sub-pictures may take. Default: 0.8.
     bus_clock : float, optional
@@ -284,9 +284,19 @@ class Panel:
         """Bits a pixel."""
         return self.controller.depth if self._cycling is None else self._cycling.depth
 
-    def framebuffer(self) -> Framebuffer:
-        """Make a blank framebuffer of this panel's size and depth."""
-        return Framebuffer(self.width, self.height, self.depth)
+    def framebuffer(self, depth: int | None = None) -> Framebuffer:
+        """Make a blank framebuffer of this panel's size and depth, or of another depth.
+
+        Lines that are drawn deeper than the panel is keep their brightness at every angle: by themselves in `greys`, on
+        a chip that has its own with ``show(fb, dither="blue-noise")``.
+
+        Examples
+        --------
+        >>> panel = open_panel("sim://ssd1327")
+        >>> panel.framebuffer(), panel.framebuffer(8)
+        (<Framebuffer 128x128, 4 bits>, <Framebuffer 128x128, 8 bits>)
+        """
+        return Framebuffer(self.width, self.height, self.depth if depth is None else depth)
 
     @contextlib.contextmanager
     def frame(self, *, clear: bool = True) -> Iterator[Framebuffer]:
@@ -360,9 +370,7 @@ class Panel:
         if wait and self._sender is None and self._cycling is None:
             return self._show(pixels, max_level, force)
         if not wait or self._cycling is not None:
-            if force:
-                self.invalidate()
-            return self._hand_over(pixels.copy(), max_level)
+            return self._hand_over(pixels.copy(), max_level, force)
         self.flush()
         return self._show(pixels, max_level, force)
 
@@ -375,7 +383,7 @@ class Panel:
         self._listen()
         pixels, max_level = self._levels(source, dither, gamma)
         if self._cycling is not None:
-            return self._hand_over(pixels.copy(), max_level)
+            return self._hand_over(pixels.copy(), max_level, force)
         return await asyncio.to_thread(self._show, pixels.copy(), max_level, force)
 
     def flush(self, timeout: float | None = None) -> None:
@@ -653,7 +661,7 @@ class Panel:
 
     def invalidate(self) -> None:
         """Say that the panel's state is unknown, after a power cut for instance: the next show starts it anew."""
-        self._driver.ready = False
+        self._driver.doubt()
 
     def close(self) -> None:
         """Leave the panel as `on_close` says and close the transport. Closing twice does nothing.
@@ -749,7 +757,7 @@ class Panel:
             size = f"{pixels.shape[1]} x {pixels.shape[0]}" if pixels.ndim == 2 else f"an array of shape {pixels.shape}"
             raise ValueError(f"source must be {self.width} x {self.height} pixels like the panel, not {size}")
         if dither is not None or gamma != 1:
-            top = 2**self.depth - 1
+            top = 2**self.depth - 1 if self._cycling is None else self._cycling.greys - 1
             before = self._dithered if self._dithered.shape == pixels.shape else None
             grays = pixels * np.uint8(255 // max_level)
             pixels, max_level = pictures.quantize(grays, top, dither, gamma=gamma, before=before), top
@@ -793,7 +801,9 @@ class Panel:
             self._sender = Sender(self)
         return self._sender
 
-    def _hand_over(self, pixels: Levels, max_level: int) -> Report:
+    def _hand_over(self, pixels: Levels, max_level: int, force: bool) -> Report:
+        if force:
+            self.invalidate()
         if (self._sender or self._own_sender()).put(pixels, max_level):
             self.stats.dropped += 1
         return _QUEUED

@@ -102,6 +102,7 @@ class Sender:
                 if self._stopped:
                     return
                 patience = -1.0 if self._due is None else max(0.0, self._due - time.monotonic())
+                patience = min(patience, threading.TIMEOUT_MAX)
                 busy = self._busy = self._waiting is not None or self._overdue()
                 pixels, max_level, self._waiting = self._waiting, self._max_level, None
                 if pixels is None and busy:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import contextlib
+import functools
 import re
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, Final
@@ -33,6 +35,8 @@ _PANEL: Final = {
     "weighted": "1",
 }
 """Settings of `Panel`, each with an example where it is a number."""
+_FRACTIONS: Final = ("refresh", "dim_after", "off_after", "pixel_shift", "bus_clock", "bus_share")
+"""Those that need not be whole."""
 _SWITCHES: Final = ("mirror_x", "mirror_y", "mirror_blocks", "charge_pump", "internal_reference", "chained_control")
 _TEXTS: Final = ("order", "first_block", "block_rotation", "board")
 _YES: Final = {"1": True, "true": True, "yes": True, "0": False, "false": False, "no": False}
@@ -418,7 +422,7 @@ def _settings(query: dict[str, str], names: dict[str, str]) -> dict[str, Any]:
     said: dict[str, Any] = {name: query[name] for name in names if name in query}
     for name, text in said.items():
         if names[name]:
-            said[name] = (_share if "." in names[name] else _number)(text, name, names[name])
+            said[name] = (_fraction if name in _FRACTIONS else _number)(text, name, names[name])
     return said
 
 
@@ -435,8 +439,8 @@ def _number(text: str, name: str, example: str) -> int:
         raise ValueError(f"{name} must be a whole number, such as {example}, not {text!r}") from None
 
 
-def _share(text: str, name: str, example: str) -> float:
-    try:
-        return float(text)
-    except ValueError:
-        raise ValueError(f"{name} must be a number, such as {example}, not {text!r}") from None
+def _fraction(text: str, name: str, example: str) -> float:
+    for read in (functools.partial(int, base=0), float):
+        with contextlib.suppress(ValueError):
+            return read(text)
+    raise ValueError(f"{name} must be a number, such as {example}, not {text!r}")

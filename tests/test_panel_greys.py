@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import math
 import os
 import signal
@@ -13,6 +14,8 @@ from typing import Any
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 from PIL import Image
 
 from paneldraw import ConeFilter, Framebuffer, Panel, Supersample, open_panel, simulator
@@ -21,7 +24,7 @@ from paneldraw.demos.scenes import SCENES
 from paneldraw.errors import PanelError, TransportError
 from paneldraw.framebuffer.pictures import quantize
 from paneldraw.transports import I2CTransport
-from paneldraw.update.greys import Cycle
+from paneldraw.update.greys import Cycle, in_greys
 
 ADDRESS = 0x3C
 
@@ -120,6 +123,21 @@ def test_asleep_nothing_is_sent() -> None:
         assert bus.bytes == before
         panel.wake()
         assert until(lambda: len(chip.frames) > count + 6)
+
+
+def test_a_forced_picture_starts_the_chip_anew_while_greys_cycle() -> None:
+    panel, chip, _ = made()
+    with panel:
+        levels = picture(panel)
+        panel.show(levels)
+        assert until(lambda: len(chip.frames) > 6)
+        for restarts in range(1, 11):
+            asyncio.run(panel.ashow(levels, force=True))
+            panel.flush()
+            assert until(lambda restarts=restarts: panel.stats.restarts >= restarts)  # type: ignore[misc]
+        time.sleep(0.05)
+        assert panel.stats.restarts == 10
+    assert chip.violations == []
 
 
 def test_a_fault_within_a_cycle_heals() -> None:
@@ -479,14 +497,14 @@ def test_a_picture_may_turn_while_it_cycles() -> None:
 # -- By the simulated eye
 
 
-def shown(levels: np.ndarray, seconds: float = 0.5) -> simulator.SSD1306:
+def shown(levels: np.ndarray, seconds: float = 0.5, max_level: int = 3) -> simulator.SSD1306:
     """A chip on which a picture has cycled, in the bus's own time."""
     chip = simulator.SSD1306(history=1)
     chip.remembers = True
     bus = simulator.I2CBus({ADDRESS: chip}, timer=None)
     cycling = Panel(SSD1306(), I2CTransport(bus), greys=4, contrast=255)._cycling
     assert cycling is not None
-    choice, still = cycling.choose(levels, 3)
+    choice, still = cycling.choose(levels, max_level)
     assert choice is not None
     cycling.begin(choice, still)
     for lasts in choice.seconds * int(seconds * choice.rate):
@@ -517,15 +535,39 @@ def test_the_clock_has_four_greys_and_few_torn_lines() -> None:
     assert np.percentile(errors, 99) <= 0.08
 
 
-def test_a_line_is_as_bright_at_every_angle() -> None:
-    light = []
-    for degrees in range(0, 180, 20):
-        fb = Framebuffer(128, 64, 8, antialias=ConeFilter())
-        x, y = 25 * math.cos(math.radians(degrees)), 25 * math.sin(math.radians(degrees))
-        fb.line(64 - x, 32 - y, 64 + x, 32 + y, width=2)
-        levels = quantize(fb.pixels, 3, "floyd-steinberg")
-        light.append(shown(levels, seconds=0.3).seen(9 / 51).sum())
+def spoke(degrees: float, width: float, x: float = 64, y: float = 32) -> np.ndarray:
+    """A line of 50 pixels, drawn in 256 levels."""
+    fb = Framebuffer(128, 64, 8, antialias=ConeFilter())
+    across, down = 25 * math.cos(math.radians(degrees)), 25 * math.sin(math.radians(degrees))
+    fb.line(x - across, y - down, x + across, y + down, width=width)
+    return fb.pixels
+
+
+@pytest.mark.parametrize("width", [1, 2])
+def test_a_line_is_as_bright_at_every_angle(width: float) -> None:
+    light = [
+        shown(spoke(degrees, width), seconds=0.3, max_level=255).seen(9 / 51).sum() for degrees in range(0, 180, 20)
+    ]
     assert np.abs(np.array(light) / np.mean(light) - 1).max() <= 0.03
+
+
+@pytest.mark.parametrize("greys", [3, 4, 5, 8])
+@pytest.mark.parametrize("width", [1, 1.5, 2, 3])
+def test_rounding_to_greys_keeps_the_light_of_a_line(greys: int, width: float) -> None:
+    for x, y in ((64, 32), (64.3, 32.7), (64.5, 32.5)):
+        light = [in_greys(spoke(degrees, width, x, y), 255, greys).sum() for degrees in range(0, 180, 4)]
+        assert np.abs(np.array(light) / np.mean(light) - 1).max() <= 0.03
+
+
+@given(st.integers(0, 2**32 - 1), st.sampled_from([1, 3, 15, 255]), st.sampled_from([3, 4, 5, 8, 16]))
+def test_rounding_is_off_by_less_than_a_grey(seed: int, max_level: int, greys: int) -> None:
+    levels = np.random.default_rng(seed).integers(0, max_level + 1, (9, 70), dtype=np.uint8)
+    found = in_greys(levels, max_level, greys).astype(int)
+    exact = levels * (greys - 1) / max_level
+    assert np.abs(found - exact).max() < 1
+    assert np.abs((found - exact).cumsum(axis=1)).max() < 1
+    assert np.array_equal(found[levels == 0], 0 * found[levels == 0])
+    assert np.all(found[levels == max_level] == greys - 1)
 
 
 def test_half_covered_is_half_the_light() -> None:

@@ -596,6 +596,17 @@ def test_no_care_in_no_time(name):
         simulated(f"?{name}=0")
 
 
+@pytest.mark.parametrize("seconds", ["1e12", "inf"])
+def test_care_that_is_never_due(seconds):
+    panel, chip = simulated(f"?dim_after={seconds}")
+    panel.show(noise(1))
+    time.sleep(0.02)
+    panel.show(noise(2), wait=False)
+    panel.flush(5)
+    np.testing.assert_array_equal(chip.pixels, noise(2))
+    panel.close()
+
+
 @pytest.mark.parametrize("chip", ["ssd1306", "ssd1327", "pcd8544", "st7920", "max7219", "is31fl3731"])
 def test_an_inverted_panel_is_left_black_too(chip):
     panel = open_panel(f"sim://{chip}?on_close=clear")

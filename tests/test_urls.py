@@ -1,9 +1,11 @@
 from __future__ import annotations
 
+import inspect
+
 import pytest
 
 from firmware_protocol import HelloReply
-from paneldraw import urls
+from paneldraw import Panel, urls
 from paneldraw.controllers import HT16K33, IS31FL3731, MAX7219, SH1106, SSD1306, SSD1327
 from paneldraw.errors import ProtocolError
 from paneldraw.transports import SerialTransport
@@ -137,6 +139,7 @@ def test_a_board_that_knows_nothing_of_its_panel():
         ("i2c://1?mirror_x=left", "mirror_x must be 1 or 0"),
         ("i2c://1?column_offset=9", "column_offset must be 0 to 0, not 9"),
         ("i2c://1?rotate=left", "rotate must be a whole number, such as 180"),
+        ("i2c://1?dim_after=soon", "dim_after must be a number, such as 60, not 'soon'"),
         ("i2c://1?colour=1", "no parameters but chip, size, column_offset, .*, rotate, contrast, on_close, updates"),
         ("i2c://1?size=128x64&size=96x16", "each parameter once"),
         ("sim://ssd1306/0x3c", "sim://ssd1306"),
@@ -153,6 +156,15 @@ def test_a_board_that_knows_nothing_of_its_panel():
 def test_what_a_url_cannot_say(url, complaint):
     with pytest.raises(ValueError, match=complaint):
         urls.parse(url)
+
+
+def test_what_a_panel_takes_in_fractions_has_them_in_urls():
+    hints = inspect.signature(Panel).parameters
+    fractions = [name for name, parameter in hints.items() if parameter.annotation in ("float", "float | None")]
+    assert {"dim_after", "bus_share"} < set(fractions)
+    for name in fractions:
+        for text, wanted in (("0.25", 0.25), ("1e3", 1000.0), ("60", 60), ("0x3c", 60)):
+            assert urls.parse(f"sim://ssd1306?{name}={text}").panel == {name: wanted}
 
 
 def test_a_url_is_a_str():

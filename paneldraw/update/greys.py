@@ -20,6 +20,7 @@ from __future__ import annotations
 
 import functools
 import itertools
+import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Final, NamedTuple
 
@@ -46,6 +47,7 @@ STEADY_RATE: Final = 50.0
 """Cycles a second from which on more are no better."""
 SHORTEST: Final = 1 / 160
 """Seconds that a sub-picture lasts at least on a chip of which no pace is known: few scan faster."""
+_GOLDEN: Final = (math.sqrt(5) - 1) / 2
 TORN: Final = 1 / 8
 """By how much of a scan a sub-picture may last too long: so many lines show it once too often."""
 
@@ -187,6 +189,26 @@ def _lit_by_weight(weights: tuple[int, ...]) -> Levels:
             lit[place, level] = weights[place] <= rest
             rest -= weights[place] * int(lit[place, level, 0])
     return lit
+
+
+def in_greys(levels: Levels, max_level: int, greys: int) -> Levels:
+    """Return which of the greys each level is, so that rows keep their light.
+
+    A pixel takes what the levels so far in its row add up to, less what the pixels before it took. It is off by less
+    than a grey, and black and white are kept; but a line of gray pixels is as bright as it was drawn, where the nearest
+    greys made it darker at one angle than at another. Where each row begins to round is one golden section further, so
+    that the rows of an upright line do not all round the same way.
+
+    Examples
+    --------
+    >>> in_greys(np.array([[0, 64, 64, 64, 64, 255]], np.uint8), 255, 4).tolist()
+    [[0, 0, 1, 1, 1, 3]]
+    """
+    if max_level == greys - 1:
+        return levels
+    begin = (np.arange(len(levels)) * _GOLDEN % 1 * max_level).astype(np.int32)
+    light = np.cumsum(levels, axis=1, dtype=np.int32) * np.int32(greys - 1)
+    return np.diff((light + begin[:, None]) // max_level, axis=1, prepend=0).astype(np.uint8)
 
 
 @functools.lru_cache(8)
