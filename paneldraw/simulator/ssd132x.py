@@ -235,7 +235,7 @@ class SSD1325(GreyChip):
     [7, 7, 12, 3, 7, 7]
     """
 
-    columns, lines = 64, 80
+    columns, lines, highest_contrast = 64, 80, 0x7F
     modules: ClassVar = {(128, 64): Module(0, 0x40, 12)}
     com_pin_settings = (0x00, 0x40)
     alternate_bit, swap_bit = 0x40, 0x00

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 import pytest
 
-from paneldraw import Panel, open_panel, simulator
+from paneldraw import ConeFilter, Panel, Supersample, open_panel, simulator
 from paneldraw.controllers import (
     CH1115,
     CHIPS,
@@ -113,6 +115,75 @@ def test_a_simulated_panel_by_url_in_every_turn(name, rotate):
         (picture,) = pictures(panel, 1)
         panel.show(picture)
         np.testing.assert_array_equal(np.rot90(panel.simulated.pixels, rotate // 90), picture)
+
+
+# -- The light of levels
+
+
+GRAYS = [name for name, chip in OLEDS.items() if chip.depth == 4]
+
+
+def seen(name, *, picture, **how):
+    """What an eye sees of a picture, in shares of full light."""
+    panel, chip = lit(name, OLEDS[name].sizes[0])
+    chip.remembers = True
+    with panel:
+        panel.contrast(255)
+        panel.show(picture(panel), **how)
+        panel.transport.bus.idle(0.3) if hasattr(panel.transport, "bus") else chip.timeline.wait(0.3)
+        return chip.seen(0.1)
+
+
+@pytest.mark.parametrize("name", GRAYS)
+def test_light_rises_in_even_steps(name):
+    panel, chip = lit(name, OLEDS[name].sizes[0])
+    pulses = panel.controller.pulses
+    shares = chip._shares
+    assert shares == pytest.approx(np.arange(16) / 15)
+    assert name == "SH1122" or np.array(pulses) / pulses[-1] == pytest.approx(shares)
+    assert chip.violations == []
+
+
+@pytest.mark.parametrize("name", GRAYS)
+def test_half_covered_is_half_the_light(name):
+    def covered(panel):
+        fb = panel.framebuffer()
+        fb.rect(8.5, 8, 16, 16, fill=True, antialias=Supersample(4))
+        return fb
+
+    light = seen(name, picture=covered)
+    assert light[12, 9:24] == pytest.approx(1)
+    assert light[12, [8, 24]] == pytest.approx(0.5, abs=1 / 30)
+    assert light[12, [7, 25]] == pytest.approx(0)
+
+
+@pytest.mark.parametrize("name", GRAYS)
+def test_a_picture_is_as_light_as_its_file_says(name):
+    grays = np.arange(0, 256, 2, dtype=np.uint8)
+
+    def ramp(panel):
+        fb = panel.framebuffer(8)
+        fb.pixels[:, :] = 0
+        fb.pixels[:, : grays.size][:] = grays[: panel.width]
+        return fb
+
+    light = seen(name, picture=ramp, gamma=2.2)[0, : grays.size]
+    assert np.abs(light - (grays / 255) ** 2.2).max() <= 1 / 30 + 1e-9
+
+
+@pytest.mark.parametrize("width", [1, 2])
+def test_a_line_is_as_bright_at_every_angle(width):
+    light = []
+    for degrees in range(0, 180, 15):
+        across, down = 25 * math.cos(math.radians(degrees)), 25 * math.sin(math.radians(degrees))
+
+        def spoke(panel, across=across, down=down):
+            fb = panel.framebuffer(8)
+            fb.line(64 - across, 64 - down, 64 + across, 64 + down, width=width, antialias=ConeFilter())
+            return fb
+
+        light.append(seen("SSD1327", picture=spoke, dither="blue-noise").sum())
+    assert np.abs(np.array(light) / np.mean(light) - 1).max() <= 0.03
 
 
 WIRINGS = [

@@ -126,7 +126,7 @@ def test_lost_power_is_seen() -> None:
     assert chip.seen(0.2).max() == pytest.approx(0.5, abs=0.06)  # to a scan of 20
 
 
-@pytest.mark.parametrize("name", ["SSD1306", "SH1106", "SH1107", "SSD1322", "SSD1327", "SSD1325"])
+@pytest.mark.parametrize("name", ["SSD1306", "SH1106", "SH1107", "SSD1322", "SSD1327", "SSD1325", "SSD1362", "SH1122"])
 def test_what_lies_still_is_seen_as_it_is(name: str) -> None:
     chip = getattr(simulator, name)()
     record = controllers.CHIPS[name.lower()]()
@@ -144,6 +144,39 @@ def test_what_lies_still_is_seen_as_it_is(name: str) -> None:
         seen = chip.seen(0.1)
     assert np.allclose(seen, picture / (2**record.depth - 1) * chip._light)
     assert chip.flicker(0.1).max() == pytest.approx(0, abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("name", "sent", "pulses"),
+    [
+        ("SSD1327", "", [0, 2, 14, 28]),  # levels 1, 2, 8 and 15, of which the last one is the light that there is
+        ("SSD1327", "B8 01 02 03 04 05 06 07 08 09 0A 0B 0C 0D 0E 3F", [1, 2, 8, 63]),
+        ("SSD1327", "B8 01 02 03 04 05 06 07 08 09 0A 0B 0C 0D 0E 3F B9", [0, 2, 14, 28]),
+        ("SSD1362", "", [0, 2, 14, 28]),
+        ("SSD1325", "", [1, 3, 15, 29]),
+        ("SSD1325", "B8 01 11 22 32 43 54 65 76", [1, 3, 22, 66]),  # Newhaven's
+        ("SSD1322", "", [0, 8, 56, 112]),
+        ("SSD1322", "B8 0C 18 24 30 3C 48 54 60 6C 78 84 90 9C A8 B4", [0, 8, 56, 112]),  # Univision's, not in use
+        ("SSD1322", "B8 0C 18 24 30 3C 48 54 60 6C 78 84 90 9C A8 B4 00", [12, 24, 96, 180]),
+        ("SSD1322", "B8 0C 18 24 30 3C 48 54 60 6C 78 84 90 9C A8 B4 00 B9", [0, 8, 56, 112]),
+    ],
+)
+def test_light_is_what_the_grey_table_makes_of_levels(name: str, sent: str, pulses: list[int]) -> None:
+    chip = getattr(simulator, name)()
+    chip.transfer(bytes.fromhex("AF"), data=False)
+    for at, opcode in enumerate(table := bytes.fromhex(sent)):
+        chip.transfer(bytes((opcode,)), data=name == "SSD1322" and 0 < at < 16)
+    assert len(table) in (0, 9, 16, 17, 18)
+    assert chip.violations == []
+    assert chip._shares[[1, 2, 8, 15]] == pytest.approx(np.array(pulses) / pulses[-1])
+    assert chip._shares[0] == 0
+
+
+def test_a_longer_pulse_makes_a_longer_scan() -> None:
+    chip = simulator.SSD1327()
+    before = chip.frame_seconds
+    send(bus_of(chip), "00 B8 02 04 06 08 0A 0C 0E 10 12 14 16 18 1A 1C 38")
+    assert chip.frame_seconds / before == pytest.approx((4 + 7 + 10 + 56) / (4 + 7 + 10 + 28))
 
 
 def test_a_chip_that_does_not_remember_says_so() -> None:
