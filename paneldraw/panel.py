@@ -370,7 +370,11 @@ class Panel:
         if wait and self._sender is None and self._cycling is None:
             return self._show(pixels, max_level, force)
         if not wait or self._cycling is not None:
-            return self._hand_over(pixels.copy(), max_level, force)
+            if force:
+                self.invalidate()
+            if (self._sender or self._own_sender()).put(pixels.copy(), max_level):
+                self.stats.dropped += 1
+            return _QUEUED
         self.flush()
         return self._show(pixels, max_level, force)
 
@@ -380,10 +384,10 @@ class Panel:
         """Show a picture without holding up the event loop, as `show` does; `source` is copied at once."""
         import asyncio
 
+        if self._cycling is not None:
+            return self.show(source, force=force, dither=dither, gamma=gamma)
         self._listen()
         pixels, max_level = self._levels(source, dither, gamma)
-        if self._cycling is not None:
-            return self._hand_over(pixels.copy(), max_level, force)
         return await asyncio.to_thread(self._show, pixels.copy(), max_level, force)
 
     def flush(self, timeout: float | None = None) -> None:
@@ -800,13 +804,6 @@ class Panel:
         if self._sender is None:
             self._sender = Sender(self)
         return self._sender
-
-    def _hand_over(self, pixels: Levels, max_level: int, force: bool) -> Report:
-        if force:
-            self.invalidate()
-        if (self._sender or self._own_sender()).put(pixels, max_level):
-            self.stats.dropped += 1
-        return _QUEUED
 
     def _show(self, pixels: Levels, max_level: int, force: bool = False) -> Report:
         """Show checked levels."""

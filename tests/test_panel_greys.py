@@ -563,7 +563,7 @@ def test_rounding_to_greys_keeps_the_light_of_a_line(greys: int, width: float) -
 def test_rounding_is_off_by_less_than_a_grey(seed: int, max_level: int, greys: int) -> None:
     levels = np.random.default_rng(seed).integers(0, max_level + 1, (9, 70), dtype=np.uint8)
     found = in_greys(levels, max_level, greys).astype(int)
-    exact = levels * (greys - 1) / max_level
+    exact = levels.astype(float) * (greys - 1) / max_level
     assert np.abs(found - exact).max() < 1
     assert np.abs((found - exact).cumsum(axis=1)).max() < 1
     assert np.array_equal(found[levels == 0], 0 * found[levels == 0])

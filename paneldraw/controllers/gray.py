@@ -2,8 +2,8 @@
 
 Sources are those of `paneldraw.controllers.oled`; where they disagree it says so.
 
-A level of these chips is lit for as many clocks of its line as a table says, which they take on ``B8``. Their own table
-(``B9``, of the SSD1325 that of Newhaven's code) leaves level 1 dark, or half the level at a third of the light. Here the
+A level is lit for as many clocks of its line as a table says, which most of them take on ``B8``. Their own table,
+``B9``, leaves level 1 dark; that of Newhaven's code for the SSD1325 gives half the level a third of the light. Here the
 steps are even, and the longest is near that of their own, so that brightness and scan stay as they were. What light the
 precharge adds is not known.
 """

@@ -148,8 +148,8 @@ class SSD1327(GreyChip):
 
     Parameters, attributes and errors are those of `simulator.SSD1306`. Modules stand upright under A0 51, that of 96x64
     under A0 42.
-    `pixels` are in levels, `seen` is the light that the grey table makes of them. A scroll moves by a column address, two
-    pixels, a step; the sheet says "one column".
+    `pixels` are in levels, `seen` is the light that the grey table makes of them. A scroll moves by a column address,
+    two pixels, a step; the sheet says "one column".
 
     Examples
     --------
