@@ -141,12 +141,15 @@ class Cycling:
 
     def choose(self, levels: Levels, max_level: int) -> tuple[Choice | None, Levels]:
         """Return the cycle for a picture, as the unturned glass has it, and the picture without grey."""
-        choice = self._chosen(in_greys(levels, max_level, self.greys), self.greys - 1, self.greys)
+        still = (2 * levels > max_level).astype(np.uint8)
+        if max_level >= 2**self.depth:
+            levels, max_level = in_greys(levels, max_level, self.greys), self.greys - 1
+        choice = self._chosen(levels, max_level, self.greys)
         if choice is None or choice.cycle.greys < self.greys:
             self._say_fewer(choice)
         if self._board is not None and choice is not None and choice.seconds:
             self._stats.cycled_by_host += not self._board.keeps(choice)
-        return choice, (2 * levels > max_level).astype(np.uint8)
+        return choice, still
 
     def _chosen(self, levels: Levels, max_level: int, greys: int) -> Choice | None:
         paces = PACES.get(self._driver.controller.name, ())

@@ -141,8 +141,8 @@ class Panel:
         whole, as plainly.
     greys : int, optional
         3, 4, 5, 8 or 16 greys on a panel of one bit, black and white among them, by sub-pictures that the eye averages:
-        a thread sends them while a picture has grey. `show` hands the picture to it and returns at once. What has more
-        levels is rounded so that rows keep their light. Default: 1, none but black and white.
+        a thread sends them while a picture has grey. `show` hands the picture to it and returns at once. What is
+        deeper is rounded so that rows keep their light. Default: 1, none but black and white.
     bus_share : float, optional
         How much of the wire the sub-pictures may take. Default: 0.8.
     bus_clock : float, optional
@@ -290,11 +290,20 @@ class Panel:
         Lines that are drawn deeper than the panel is keep their brightness at every angle: by themselves in `greys`, on
         a chip that has its own with ``show(fb, dither="blue-noise")``.
 
+        Parameters
+        ----------
+        depth : int, optional
+            Bits a pixel: 1, 2, 4 or 8. Default: the panel's.
+
+        Returns
+        -------
+        Framebuffer
+
         Examples
         --------
         >>> panel = open_panel("sim://ssd1327")
-        >>> panel.framebuffer(), panel.framebuffer(8)
-        (<Framebuffer 128x128, 4 bits>, <Framebuffer 128x128, 8 bits>)
+        >>> panel.framebuffer().depth, panel.framebuffer(8).depth
+        (4, 8)
         """
         return Framebuffer(self.width, self.height, self.depth if depth is None else depth)
 
@@ -344,7 +353,7 @@ class Panel:
             there the latest wins; what goes wrong is raised by the next call, or by `flush`. Default: True.
         dither, gamma : optional
             How grays become levels, as in `Framebuffer.image`; with ``"stable"``, pixels keep the level of the last
-            picture that was shown so. Default: the nearest level.
+            picture that was shown so. Default: the nearest level; in `greys` one that keeps the light of rows.
 
         Returns
         -------
@@ -761,7 +770,9 @@ class Panel:
             size = f"{pixels.shape[1]} x {pixels.shape[0]}" if pixels.ndim == 2 else f"an array of shape {pixels.shape}"
             raise ValueError(f"source must be {self.width} x {self.height} pixels like the panel, not {size}")
         if dither is not None or gamma != 1:
-            top = 2**self.depth - 1 if self._cycling is None else self._cycling.greys - 1
+            top = 2**self.depth - 1
+            if self._cycling is not None:
+                top = self._cycling.greys - 1 if dither else 255  # which it rounds by itself
             before = self._dithered if self._dithered.shape == pixels.shape else None
             grays = pixels * np.uint8(255 // max_level)
             pixels, max_level = pictures.quantize(grays, top, dither, gamma=gamma, before=before), top

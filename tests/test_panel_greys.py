@@ -578,12 +578,17 @@ def test_half_covered_is_half_the_light() -> None:
     assert seen[:, 70:].max() == 0
 
 
-def test_a_picture_is_as_light_as_its_file_says() -> None:
-    with made()[0] as panel:
+@pytest.mark.parametrize("dither", [None, "blue-noise"])
+@pytest.mark.parametrize("greys", [3, 4, 5])
+def test_a_picture_is_as_light_as_its_file_says(greys: int, dither: Any) -> None:
+    with made(greys, weighted=greys > 4)[0] as panel:
         photograph = Image.fromarray(np.full((64, 128), 186, np.uint8))
-        levels, max_level = panel._levels(photograph, "blue-noise", 2.2)
-    assert max_level == 3
-    assert levels.mean() / 3 == pytest.approx((186 / 255) ** 2.2, abs=0.01)
+        levels, max_level = panel._levels(photograph, dither, 2.2)
+    if dither is None:
+        levels = in_greys(levels, max_level, greys)
+    else:
+        assert max_level == greys - 1
+    assert levels.mean() / (greys - 1) == pytest.approx((186 / 255) ** 2.2, abs=0.01)
 
 
 def test_a_picture_that_is_drawn_on_after_its_show_is_shown_as_it_was() -> None:

@@ -148,7 +148,7 @@ class SSD1327(GreyChip):
 
     Parameters, attributes and errors are those of `simulator.SSD1306`. Modules stand upright under A0 51, that of 96x64
     under A0 42.
-    `pixels` are in levels, `seen` is the light that the grey table makes of them. A scroll moves by a column address,
+    `pixels` are in levels, `seen` is the light that the gray table makes of them. A scroll moves by a column address,
     two pixels, a step; the sheet says "one column".
 
     Examples
@@ -208,7 +208,7 @@ class SSD1327(GreyChip):
 def _steps(chip: Any, sent: bytes) -> None:
     first, *pairs = sent[1:]
     if any(byte & 0x88 for byte in (first & 0x0F, *pairs)) or first & 0xF0:
-        chip.complain("steps of the grey table are 0 to 7, that of level 1 and then two a byte", sent)
+        chip.complain("steps of the gray table are 0 to 7, that of level 1 and then two a byte", sent)
     chip.registers.steps = (first & 7, *(byte >> shift & 7 for byte in pairs for shift in (0, 4)))
 
 

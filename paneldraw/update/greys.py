@@ -192,11 +192,11 @@ def _lit_by_weight(weights: tuple[int, ...]) -> Levels:
 
 
 def in_greys(levels: Levels, max_level: int, greys: int) -> Levels:
-    """Return which of the greys each level is, so that rows keep their light.
+    """Return which of the grays each level is, so that rows keep their light.
 
     A pixel takes what the levels so far in its row add up to, less what the pixels before it took. It is off by less
-    than a grey, and black and white are kept; but a line of gray pixels is as bright as it was drawn, where the nearest
-    greys made it darker at one angle than at another. Where each row begins to round is one golden section further, so
+    than a gray, and black and white are kept; but a line of gray pixels is as bright as it was drawn, where the nearest
+    grays made it darker at one angle than at another. Where each row begins to round is one golden section further, so
     that the rows of an upright line do not all round the same way.
 
     Examples
@@ -204,8 +204,6 @@ def in_greys(levels: Levels, max_level: int, greys: int) -> Levels:
     >>> in_greys(np.array([[0, 64, 64, 64, 64, 255]], np.uint8), 255, 4).tolist()
     [[0, 0, 1, 1, 1, 3]]
     """
-    if max_level == greys - 1:
-        return levels
     begin = (np.arange(len(levels)) * _GOLDEN % 1 * max_level).astype(np.int32)
     light = np.cumsum(levels, axis=1, dtype=np.int32) * np.int32(greys - 1)
     return np.diff((light + begin[:, None]) // max_level, axis=1, prepend=0).astype(np.uint8)
