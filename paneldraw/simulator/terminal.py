@@ -38,6 +38,8 @@ _KEPT: Final = 2
 _CUBE: Final = np.array([0, 95, 135, 175, 215, 255])
 """Steps of each color in the palette of 256."""
 _GRAYS: Final = 8 + 10 * np.arange(24)
+_BREAK: Final = "\x18\x1b[0m"
+"""Breaks off a control sequence of which only the start was written, and ends its colors."""
 _BUSY: Final = 3.0
 """Drawing may take one part in so many of the time, and one more."""
 
@@ -328,6 +330,7 @@ class TerminalView:
         self._pictures: list[Shown] = []
         self._place = (0, 0, 0)  # columns and lines of the terminal, and lines of it that are drawn in
         self._drawn: list[str] = []
+        self._torn = False  # whether what was written last may have been cut off anywhere
 
     def __enter__(self) -> TerminalView:
         return self
@@ -335,6 +338,8 @@ class TerminalView:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
+        if kind is not None:
+            self._distrust()
         self.close()
 
     def show(self, source: Any, caption: str = "", look: str | Look | None = None) -> None:
@@ -359,27 +364,57 @@ class TerminalView:
             return
         lines = self._arranged(columns, rows - _KEPT)
         place = (columns, rows, len(lines))
-        room = ""
-        if place != self._place:
-            room = self._make_room(rows, len(lines))
-            self._place, self._drawn = place, []
-        first = rows - len(lines) + 1
-        new = [
-            f"\x1b[{first + number};1H\x1b[2K{line}"
-            for number, line in enumerate(lines)
-            if not self._drawn or line != self._drawn[number]
-        ]
-        self._drawn = lines
-        if new:
-            self._write(f"\x1b[?25l{room}\x1b7{''.join(new)}\x1b8\x1b[?25h")
+        room = "" if place == self._place else self._make_room(rows, len(lines))
+        before = [] if room or self._torn else self._drawn
+        changes = self._changes(before, lines, rows)
+        self._place, self._drawn = place, lines
+        if changes:
+            start = f"{_BREAK if self._torn else ''}\x1b[?25l{room}\x1b7"
+            try:
+                self._write(f"{start}{changes}\x1b8\x1b[?25h")
+            except BaseException:
+                self._distrust()
+                self._place = (columns, rows, 0) if room else place  # the room may be cut too, and is made anew
+                raise
+            self._torn = False
+
+    def _distrust(self) -> None:
+        """Take it that the terminal did not get all that was written: Ctrl-C has it lose what it has not yet read."""
+        self._torn = True
 
     def close(self) -> None:
         """Leave the last pictures standing, with the cursor below them."""
+        try:
+            self._finish()
+        except BaseException:  # of a signal, say; the terminal has to be left in order all the same
+            self._distrust()
+            with contextlib.suppress(OSError, ValueError):
+                self._finish()
+            raise
+        finally:
+            self._pictures, self._drawn, self._place, self._torn = [], [], (0, 0, 0), False
+
+    def _finish(self) -> None:
         if self._drawn:
-            self._write(f"\x1b[r\x1b[{self._place[1]};1H\x1b[0m\n")
+            columns, rows, count = self._place
+            start = ""
+            if self._torn:
+                stands = count and _terminal_size(self._stream) == (columns, rows)
+                again = self._changes([], self._drawn, rows) if stands else ""
+                start = f"{_BREAK}{again}\x1b[?25h"
+            self._write(f"{start}\x1b[r\x1b[{rows};1H\x1b[0m\n")
         elif self._pictures and not self.live:
             self._write("\n".join([*self._plain(), ""]))
-        self._pictures, self._drawn, self._place = [], [], (0, 0, 0)
+
+    @staticmethod
+    def _changes(before: list[str], lines: list[str], rows: int) -> str:
+        """Draw those lines that are not as before, each in its place at the lower edge."""
+        first = rows - len(lines) + 1
+        return "".join(
+            f"\x1b[{first + number};1H\x1b[2K{line}"
+            for number, line in enumerate(lines)
+            if not before or line != before[number]
+        )
 
     def _make_room(self, rows: int, count: int) -> str:
         """Clear what was drawn below the cursor, bring as many free lines there, and let the rest scroll by itself."""
@@ -471,11 +506,13 @@ class LiveTerminal:
                 return
             self._closed = True
             self._change.notify_all()
-        if self._thread is not None:
-            self._thread.join(2)
-        with contextlib.suppress(OSError, ValueError):  # nobody is there any more
-            self._draw()
-            self._view.close()
+        try:
+            if self._thread is not None:
+                self._thread.join(2)
+        finally:  # a signal may end the waiting
+            self._view._distrust()
+            with contextlib.suppress(OSError, ValueError), self._view:  # nobody is there any more
+                self._draw()
 
     def _watch(self) -> None:
         pause, size = 0.0, (0, 0)

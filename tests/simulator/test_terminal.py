@@ -9,6 +9,7 @@ import time
 from collections.abc import Callable, Iterator
 
 import numpy as np
+import pyte
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -18,7 +19,7 @@ from paneldraw import simulator
 from paneldraw.simulator.terminal import Shown
 
 from .helpers import random_picture, send, started
-from .terminals import Terminal, in_order
+from .terminals import Screen, Terminal, in_order
 
 
 def unblock(text: str, marks: str) -> NDArray[np.uint8]:
@@ -287,6 +288,47 @@ def test_the_terminal_is_in_order_whatever_happens(sized: Sized, error: type[Bas
         draw()
     terminal.lines()
     assert in_order(terminal)
+
+
+class Cut(io.StringIO):
+    """A terminal's stream whose writing a signal breaks off once, so many characters from the start."""
+
+    def __init__(self, room: int) -> None:
+        super().__init__()
+        self.room = room
+
+    def isatty(self) -> bool:
+        return True
+
+    def write(self, text: str) -> int:
+        cut, self.room = self.room, self.room - len(text)
+        if 0 <= cut < len(text):
+            super().write(text[:cut])
+            raise KeyboardInterrupt
+        return super().write(text)
+
+
+def test_the_terminal_is_in_order_wherever_a_signal_cuts_what_is_written(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("paneldraw.simulator.terminal._terminal_size", lambda stream: (40, 20))
+    pictures = [random_picture(16, 8, seed) for seed in range(2)]
+
+    def written(stream: Cut) -> str:
+        with contextlib.suppress(KeyboardInterrupt), simulator.TerminalView(stream) as view:
+            for picture in pictures:
+                view.show(picture)
+        return stream.getvalue()
+
+    whole = written(Cut(-1))
+    second = whole.index("\x1b[?25h")  # the room for a picture is made with the first
+    shown = [simulator.text(picture, "ascii").split("\n") for picture in pictures]
+    for cut in range(len(whole)):
+        screen = Screen(40, 20)
+        pyte.Stream(screen).feed(written(Cut(cut)).replace("\n", "\r\n"))
+        assert screen.margins is None, cut
+        assert not screen.cursor.hidden, cut
+        assert screen.cursor.attrs == pyte.screens.Char(" "), cut
+        if cut > second:
+            assert [line[1:17] for line in screen.display[14:18]] in shown, cut
 
 
 # -- No terminal
