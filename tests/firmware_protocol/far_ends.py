@@ -111,12 +111,17 @@ class Board(PtyBoard):
 class EmulatedBoard(PtyBoard):
     """The firmware on the emulated chip, at the speed of its wire and of the clock on the wall.
 
-    On a busy machine it runs slower: if it had to catch up, each turn could take longer than the one before.
+    On a busy machine it runs slower: if it had to catch up, each turn could take longer than the one before. Whoever
+    waits for it has to measure that by its own `seconds`.
     """
 
     def __init__(self, binaries: tuple[Path, Path], path: Path, panel: Panel | None = None) -> None:
         self.chip = emulated.Board(*binaries)
         super().__init__(path, panel)
+
+    def seconds(self) -> float:
+        """Return the time on the board."""
+        return self.chip.cycle / emulated.HZ
 
     def run(self) -> None:
         self.chip.reset(power=True)

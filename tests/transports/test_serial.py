@@ -47,19 +47,24 @@ def chip():
     return simulator.SSD1306(128, 64)
 
 
+#: What links are opened with: a clock, where the board has one of its own.
+CLOCK = {}
+
+
 @pytest.fixture(params=["reference", "emulated"])
-def board(request, path, chip):
+def board(request, path, chip, monkeypatch):
     """A board with a panel behind a port: the reference device, or the firmware on the emulated chip."""
     if request.param == "reference":
         board = Board(path, panel=chip.write)
     else:
         board = EmulatedBoard(request.getfixturevalue("binaries"), path, chip.write)
+        monkeypatch.setitem(CLOCK, "clock", board.seconds)
     yield board
     board.pull_out()
 
 
 def opened(path, *arguments):
-    return Panel(SSD1306(128, 64), SerialTransport(str(path), *arguments))
+    return Panel(SSD1306(128, 64), SerialTransport(str(path), *arguments, **CLOCK))
 
 
 @contextlib.contextmanager
