@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import itertools
 import math
 import os
@@ -9,6 +10,7 @@ import random
 import re
 import subprocess
 import sys
+import time
 import warnings
 from collections import Counter
 from pathlib import Path
@@ -27,7 +29,7 @@ import symptoms
 import worked_examples as examples
 from PIL import Image
 
-from paneldraw import ConeFilter, Framebuffer, Supersample, simulator, urls, widgets
+from paneldraw import ConeFilter, Framebuffer, Supersample, pacing, simulator, urls, widgets
 from paneldraw.cli import check, main
 from paneldraw.controllers import CHIPS
 from paneldraw.demos import DEMOS
@@ -285,6 +287,20 @@ def test_the_blocks_of_the_page_on_adding_a_chip_run():
     assert names["chip"].violations == []
 
 
+@pytest.fixture
+def no_beat_is_late(monkeypatch):
+    """A clock for animations that only their own pauses pass, so that a busy machine leaves out no frame."""
+    paused = [0.0]
+
+    def pause(seconds):
+        paused.append(seconds)
+        time.sleep(seconds)  # the simulated panel's frames are timed by the wall
+
+    frames = functools.partial(pacing.Frames, clock=lambda: math.fsum(paused), sleep=pause)
+    monkeypatch.setattr("paneldraw.panel.Frames", frames)
+
+
+@pytest.mark.usefixtures("no_beat_is_late")
 def test_the_page_on_recording_runs_and_prints_what_it_says(monkeypatch, tmp_path, capsys):
     page = (DOCS / "recording.md").read_text(encoding="utf-8")
     monkeypatch.chdir(tmp_path)

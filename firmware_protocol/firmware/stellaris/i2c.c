@@ -16,14 +16,16 @@ enum { I2C_BUSY = 0x01, I2C_ERROR = 0x02, NO_DATA_ACK = 0x08, LOST = 0x10 };
 static enum pd_fault command(uint32_t what)
 {
     uint32_t status;
+    bool late;
     uint16_t since = pd_milliseconds;
     WATCHDOG(WATCHDOG_CLEAR) = 1;
     I2C(I2C_STATUS) = what;
     do {
-        if ((uint16_t)(pd_milliseconds - since) > 20)
-            return PD_BUS_STUCK;
+        late = (uint16_t)(pd_milliseconds - since) > 20; /* before the status, which may have come right meanwhile */
         status = I2C(I2C_STATUS);
-    } while (status & I2C_BUSY);
+    } while (status & I2C_BUSY && !late);
+    if (status & I2C_BUSY)
+        return PD_BUS_STUCK;
     if (!(status & I2C_ERROR))
         return PD_OK;
     I2C(I2C_STATUS) = STOP;

@@ -18,21 +18,25 @@ static void bus_on(void)
     SSI(SSI_ENABLE) = 0x02;
 }
 
-/* Waits for what the status says, and reads away what comes in, which nobody wants and QEMU stops for; false if that
- * takes longer than it can.
+/* Waits for what the status says, and reads away what comes in, which nobody wants and QEMU stops for; false if nothing
+ * moves for longer than it can. The status is read behind the time: an emulator that was held up has missed nothing.
  */
 static bool wait(uint32_t mask, uint32_t value)
 {
-    uint32_t status;
     uint16_t since = pd_milliseconds;
-    do {
-        if ((uint16_t)(pd_milliseconds - since) > 20)
-            return false;
-        status = SSI(SSI_STATUS);
-        if (status & CAME)
+    for (;;) {
+        bool late = (uint16_t)(pd_milliseconds - since) > 20;
+        uint32_t status = SSI(SSI_STATUS);
+        if (status & CAME) {
             (void)SSI(SSI_DATA);
-    } while ((status & mask) != value);
-    return true;
+            since = pd_milliseconds;
+            late = false;
+        }
+        if ((status & mask) == value)
+            return true;
+        if (late)
+            return false;
+    }
 }
 
 /* There is no acknowledgement: what a control byte says on I2C, the D/C line says here. */
