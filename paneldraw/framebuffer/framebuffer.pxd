@@ -12,7 +12,7 @@ cdef class Framebuffer:
 
     cdef object _draw_on(self, Surface surface, object antialias)
 
-cdef bint _is_ink(object c) except -1
+cdef bint _is_of_class_ink(object c) except -1
 cdef Framebuffer _unmade()
 cdef object _surface_of(object source)
 cdef Surface _surface(Framebuffer fb)

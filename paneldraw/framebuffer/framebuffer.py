@@ -913,10 +913,10 @@ class Framebuffer:
             return
         if not is_word(align, "center"):
             box = aligned_box((x, y, w, h), outward(align, width))
-            if box is None:
-                width, fill = 1, True
-            else:
-                x, y, w, h = box
+            # A second call, since arguments that are never set anew make the first one cheaper.
+            form = {"width": width, "fill": fill} if box is not None else {"width": 1, "fill": True}
+            self.rect(*(box or (x, y, w, h)), c, angle=angle, dash=dash, antialias=antialias, op=op, **form)
+            return
         style = self.painter.style(c, op, width, antialias, "butt", "miter", dash)
         if quick(angle) != 0 and real("angle", angle) % 180 != 0:
             self.painter.turned_box(x, y, w, h, angle, fill, style)
@@ -1787,8 +1787,16 @@ class Framebuffer:
         return f"Framebuffer({self.width}, {self.height}, depth={self.depth})"
 
 
+@cython.cfunc
+@cython.inline
+@cython.returns(cython.bint)
+@cython.exceptval(-1)
 def _is_ink(c):
-    return c is not None and type(c) is not int and isinstance(c, Ink)
+    return c is not None and type(c) is not int and _is_of_class_ink(c)
+
+
+def _is_of_class_ink(c):
+    return isinstance(c, Ink)
 
 
 def _surface_of(source):

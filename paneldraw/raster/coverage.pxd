@@ -84,7 +84,7 @@ cdef class Coverage:
     cdef void block_of_spans(self, long long h, long long *ends, int count) noexcept nogil
     cdef bint block_of_edges(self, long long h, int lines, Edge **edges, int count) noexcept nogil
     cdef void _set_out(self, Edge **edges, int count) noexcept nogil
-    cdef void _paint_between(self, long long y, int rows, Edge *left, Edge *right) noexcept nogil
+    cdef void paint_between(self, long long y, int rows, Edge **edges) noexcept nogil
     cdef inline void _count(self, long long *ends, int count) noexcept nogil
     cdef bint _are_steep(self, Edge **edges, int count) noexcept nogil
     cdef void _count_row(self, long long y, Edge **edges, int count) noexcept nogil

@@ -258,7 +258,7 @@ class Coverage:
     def block_of_edges(self, h, lines, edges, count):
         """Take the spans of `lines` sub-scanlines from `h` on that lie between straight edges, two by two.
 
-        That is a whole `block`; where spans are not weighed, any number of blocks up to `MOST` sub-scanlines. Returns
+        That is a whole `block`; where spans are counted, any number of blocks up to `MOST` sub-scanlines. Returns
         whether they were taken: edges may be too flat for it.
         """
         i: cython.int
@@ -267,15 +267,11 @@ class Coverage:
                 self._advance(h)
             self._weigh_edges(h, edges, count)
             return True
-        if self.partial and not self._are_steep(edges, count):
+        if not self._are_steep(edges, count):
             return False
         self._set_out(edges, count)
-        if self.partial:
-            for i in range(lines // self.n):
-                self._count_row(h // self.n + i, edges, count)
-        else:
-            for i in range(0, count, 2):
-                self._paint_between(h, lines, edges[i], edges[i + 1])
+        for i in range(lines // self.n):
+            self._count_row(h // self.n + i, edges, count)
         return True
 
     def _set_out(self, edges, count):
@@ -287,17 +283,17 @@ class Coverage:
             edge.at = ((edge.bound - left) << _FIXED) + (edge.fraction >> (FRACTION - _FIXED))
             edge.pace = (edge.step << _FIXED) + (edge.fraction_step >> (FRACTION - _FIXED))
 
-    def _paint_between(self, y, rows, left, right):
-        """Paint the pixels between two edges in the rows from `y` on."""
+    def paint_between(self, y, rows, edges):
+        """Paint the pixels between two edges, whichever is left, in up to `MOST` rows from `y` on; aliased."""
         k: cython.int
         x: cython.longlong = self.surface.left
-        first: cython.longlong = left.at
-        end: cython.longlong = right.at
+        self._set_out(edges, 2)
+        a: cython.longlong = edges[0].at
+        b: cython.longlong = edges[1].at
         for k in range(rows):
-            if (first >> _FIXED) < (end >> _FIXED):
-                self.surface.span(y + k, x + (first >> _FIXED), x + (end >> _FIXED))
-            first += left.pace
-            end += right.pace
+            self.surface.span(y + k, x + (min(a, b) >> _FIXED), x + (max(a, b) >> _FIXED))
+            a += edges[0].pace
+            b += edges[1].pace
 
     def _count(self, ends, count):
         """Add spans of the present row of pixels: a sub-pixel is 1 in its own pixel."""

@@ -203,7 +203,10 @@ def polyline(surface, points, count, closed, pattern, lengths, phase, dda):
         y1: cython.longlong = points[2 * i + 1]
         x2: cython.longlong = points[2 * j]
         y2: cython.longlong = points[2 * j + 1]
-        dashed(marks, x1, y1, x2, y2, pattern, lengths, phase, dda)
+        if lengths == 0 and not dda:
+            bresenham(marks, x1, y1, x2, y2)
+        else:
+            dashed(marks, x1, y1, x2, y2, pattern, lengths, phase, dda)
         phase += max(abs(x2 - x1), abs(y2 - y1))
         top = min(top, y1)
         bottom = max(bottom, y1)

@@ -10,6 +10,12 @@ cdef void _sweep(
     Coverage coverage, long long top, long long bottom, bint nonzero, Edge *edges, int *starting, Edge **active,
     Edge **sides, long long *spans,
 ) noexcept nogil
+cdef void _fill_rows(
+    Coverage coverage, long long top, long long bottom, bint nonzero, Edge *edges, int *starting, Edge **active
+) noexcept nogil
+cdef int _renew(Edge *edges, Edge **active, int crossing, int next, long long h) noexcept nogil
+cdef long long _first_end(Edge **active, int crossing, long long end) noexcept nogil
+cdef long long _last_start(Edge **active, int crossing, long long start) noexcept nogil
 cdef int _rows_in_order(Edge **active, int crossing, int lines, int rows) noexcept nogil
 cdef bint _stay_in_order(Edge **active, int crossing, int lines) noexcept nogil
 cdef bint _take_block(

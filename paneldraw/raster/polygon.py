@@ -50,8 +50,12 @@ def polygon(coverage, points, ends, contours, nonzero):
         spans = [0] * (n * total + 2)
         active, sides = [None] * total, [None] * total
         starting = [0] * (bottom - top)
-    if _collect(coverage, points, ends, contours, top, bottom, edges, starting):
+    if not _collect(coverage, points, ends, contours, top, bottom, edges, starting):
+        return
+    if coverage.partial:
         _sweep(coverage, top, bottom, nonzero, edges, starting, active, sides, spans)
+    else:
+        _fill_rows(coverage, top, bottom, nonzero, edges, starting, active)
 
 
 def _collect(coverage, points, ends, contours, top, bottom, edges, starting):
@@ -114,14 +118,82 @@ def _place(coverage, edge, x1, y1, dx, dy):
     edge.fraction_step = floored((step - edge.step) * (one << FRACTION))
 
 
+def _fill_rows(coverage, top, bottom, nonzero, edges, starting, active):
+    """Fill a shape whose sub-scanlines are whole rows: spans lie between its edges in the order of their crossings.
+
+    Beside `_sweep` because a filled triangle takes a tenth fewer instructions so, a polygon of twelve points a sixth.
+    """
+    i: cython.int
+    left: cython.longlong = 0
+    crossing: cython.int = 0
+    # By the even-odd rule a winding is odd or even.
+    kept: cython.int = -1 if nonzero else 1
+    soonest: cython.longlong = coverage.first
+    row: cython.longlong = top
+    while row < bottom:
+        y: cython.longlong = coverage.first + row
+        if soonest <= y or starting[row - top] >= 0:
+            crossing = _renew(edges, active, crossing, starting[row - top], y)
+            soonest = _first_end(active, crossing, coverage.end)
+        if crossing == 2:
+            rows: cython.int = 1
+            most: cython.longlong = min(soonest - y, MOST)
+            while rows < most and starting[row + rows - top] < 0:
+                rows += 1
+            coverage.paint_between(y, rows, active)
+            _step(active[0], rows)
+            _step(active[1], rows)
+            row += rows
+            continue
+        _put_in_order(active, crossing)
+        winding: cython.int = 0
+        for i in range(crossing):
+            edge: cython.pointer[Edge] = active[i]
+            outside: cython.bint = winding == 0
+            winding = (winding + edge.winding) & kept
+            if outside:
+                left = edge.bound
+            elif winding == 0:
+                coverage.surface.span(y, left, edge.bound)
+            _step(edge, 1)
+        row += 1
+
+
+def _renew(edges, active, crossing, next, h):
+    """Leave out edges that end before sub-scanline `h`, add those chained from number `next` on, and count them all."""
+    i: cython.int
+    count: cython.int = 0
+    for i in range(crossing):
+        active[count] = active[i]
+        count += active[i].end > h
+    while next >= 0:
+        active[count] = cython.address(edges[next]) if cython.compiled else edges[next]
+        next = active[count].next
+        count += 1
+    return count
+
+
+def _first_end(active, crossing, end):
+    """The first sub-scanline, up to `end`, before which one of these edges ends."""
+    i: cython.int
+    for i in range(crossing):
+        end = min(end, active[i].end)
+    return end
+
+
+def _last_start(active, crossing, start):
+    """The last sub-scanline, from `start` on, that is the first one of one of these edges."""
+    i: cython.int
+    for i in range(crossing):
+        start = max(start, active[i].first)
+    return start
+
+
 def _sweep(coverage, top, bottom, nonzero, edges, starting, active, sides, spans):
     """Keep the edges of the present block in the order of their crossings, between which spans lie."""
     row: cython.longlong
     block: cython.longlong = coverage.block
     crossing: cython.int = 0
-    next: cython.int
-    i: cython.int
-    j: cython.int
     # The first sub-scanline before which no active edge ends; the last one before which one begins.
     soonest: cython.longlong = coverage.first
     latest: cython.longlong = coverage.first
@@ -129,27 +201,14 @@ def _sweep(coverage, top, bottom, nonzero, edges, starting, active, sides, spans
     while row < bottom:
         begin: cython.longlong = coverage.first + row * block
         lines: cython.int = cython.cast(cython.int, block)
-        if soonest <= begin:
-            soonest = coverage.end
-            j = 0
-            for i in range(crossing):
-                active[j] = active[i]
-                if active[i].end > begin:
-                    soonest = min(soonest, active[i].end)
-                    j += 1
-            crossing = j
-        next = starting[row - top]
-        while next >= 0:
-            active[crossing] = cython.address(edges[next]) if cython.compiled else edges[next]
-            soonest = min(soonest, active[crossing].end)
-            latest = max(latest, active[crossing].first)
-            next = active[crossing].next
-            crossing += 1
+        if soonest <= begin or starting[row - top] >= 0:
+            crossing = _renew(edges, active, crossing, starting[row - top], begin)
+            soonest = _first_end(active, crossing, coverage.end)
+            latest = _last_start(active, crossing, coverage.first)
         _put_in_order(active, crossing)
         rows: cython.int = 0
-        if latest <= begin and begin + block <= soonest and (block > 1 or crossing == 2):
-            # What the same edges cross in the same order is taken at once: aliased triangles take a third less. With
-            # more edges such blocks are short, and gain nothing there.
+        if latest <= begin and begin + block <= soonest:
+            # What the same edges cross in the same order is taken at once.
             most: cython.longlong = min(bottom - row, min(soonest - begin, MOST) // block)
             rows = 1
             while rows < most and coverage.filter is None and starting[row + rows - top] < 0:
