@@ -30,7 +30,7 @@ from paneldraw.framebuffer import pictures
 from paneldraw.framebuffer.alignment import ALIGNMENTS, aligned_box, aligned_radius, outward
 from paneldraw.framebuffer.angles import sweep
 from paneldraw.framebuffer.arguments import LARGEST, check_antialias, choice, in_turn, line_width, real, size, whole
-from paneldraw.framebuffer.inks import Ink, covered_rows
+from paneldraw.framebuffer.inks import Ink, covered_box
 from paneldraw.framebuffer.scaling import check_fit, checked_size
 from paneldraw.raster.surface import OPS
 
@@ -248,18 +248,18 @@ class Framebuffer:
 
     def _cover(self, cover, c, op):
         """Paint pixels with a level or an ink as far as they are covered, in 255ths."""
-        mine: Surface = self.surface
-        top, bottom = covered_rows(cover)
-        if top >= bottom:
+        box = covered_box(cover)
+        if box is None:
             return
-        cover = cover[top:bottom, mine.left : mine.right]
+        left, top, right, bottom = box
+        cover = cover[top:bottom, left:right]
         if _is_ink(c):
-            levels, opacity = c.levels((mine.left, top, mine.right, bottom), mine.max_level)
+            levels, opacity = c.levels(box, self.surface.max_level)
             if opacity is not None:
                 cover = np.rint(cover * (opacity / 255)).astype(np.uint8)
         else:
             levels = np.full(cover.shape, c, np.uint8)
-        copy_levels(mine, levels, cover, mine.left, top, -1, None, op)
+        copy_levels(self.surface, levels, cover, left, top, -1, None, op)
 
     # -- Points and lines
 

@@ -219,11 +219,14 @@ class Gradient(Ink):
         return f"<Gradient start={self._start}, {to}, {len(self._tones)} tones>"
 
 
-def covered_rows(cover: Levels) -> tuple[int, int]:
-    """Return between which rows all is that is not 0: the first one, and the one behind the last; none if none is."""
-    memory, width = cover.tobytes(), cover.shape[1]
-    lit = memory.rstrip(b"\0")
-    return (len(lit) - len(lit.lstrip(b"\0"))) // width, -(-len(lit) // width)
+def covered_box(cover: Levels) -> Box | None:
+    """Return the smallest box that holds all that is not 0, None if all is 0."""
+    columns = np.maximum.reduce(cover, 0).nonzero()[0]
+    if not len(columns):
+        return None
+    left, right = int(columns[0]), int(columns[-1]) + 1
+    rows = np.maximum.reduce(cover[:, left:right], 1).nonzero()[0]
+    return left, int(rows[0]), right, int(rows[-1]) + 1
 
 
 def _place(name: str, place: Any) -> tuple[float, float]:

@@ -39,9 +39,7 @@ cdef void _blocks(Coverage coverage, Edges *edges, Part part, long long first, l
 cdef bint _are_steep(long long *above, long long *ends, long long *below, int count, int block) noexcept nogil
 cdef int _spans(Coverage coverage, Edges *edges, Part part, long long h, long long *ends) noexcept nogil
 cdef int _cut(Coverage coverage, Edges *edges, Part part, long long h, long long *ends) noexcept nogil
-cdef int _between(Edges *edges, long long y, long long *ends, int at) noexcept nogil
 cdef bint _grow(Round *grown, Round *shape, long long n, long long outward) noexcept nogil
-cdef bint _across(Round *shape, long long y, long long *ends, int at) noexcept nogil
 cdef void _add_bar(
     long long *ends, int at, long long x, long long y, long long vx, long long vy, long long length, long long half,
 ) noexcept nogil
