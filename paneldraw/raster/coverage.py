@@ -290,10 +290,12 @@ class Coverage:
         self._set_out(edges, 2)
         a: cython.longlong = edges[0].at
         b: cython.longlong = edges[1].at
+        pace: cython.longlong = edges[0].pace
+        other: cython.longlong = edges[1].pace
         for k in range(rows):
             self.surface.span(y + k, x + (min(a, b) >> _FIXED), x + (max(a, b) >> _FIXED))
-            a += edges[0].pace
-            b += edges[1].pace
+            a += pace
+            b += other
 
     def _count(self, ends, count):
         """Add spans of the present row of pixels: a sub-pixel is 1 in its own pixel."""
