@@ -21,6 +21,8 @@ cdef struct Edge:
     long long end
     int winding
     int next
+    # Its place before edges were last sorted.
+    int rank
     # In a block that has to be walked: in how many of its sub-scanlines spans begin (or else end) at the edge, and
     # where it was before.
     int turns

@@ -35,3 +35,4 @@ cdef int _spans(
 ) noexcept nogil
 cdef void _put_in_order(Edge **active, int crossing) noexcept nogil
 cdef void _sort(Edge **active, int crossing) noexcept nogil
+cdef bint _is_behind(Edge *a, Edge *b) noexcept nogil

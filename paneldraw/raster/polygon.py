@@ -378,7 +378,7 @@ def _put_in_order(active, crossing):
 
 
 def _sort(active, crossing):
-    """Sort edges by their bounds.
+    """Sort edges by their bounds; those that meet keep their order, however many others there are.
 
     From one sub-scanline to the next their order hardly changes: insertion sort, by way of Shell's if there are so many
     that a new one may have far to go.
@@ -388,12 +388,19 @@ def _sort(active, crossing):
     j: cython.int
     while 36 * gap < crossing:
         gap = 3 * gap + 1
+    for i in range(crossing):
+        active[i].rank = i
     while gap > 0:
         for i in range(gap, crossing):
             edge: cython.pointer[Edge] = active[i]
             j = i
-            while j >= gap and active[j - gap].bound > edge.bound:
+            while j >= gap and _is_behind(active[j - gap], edge):
                 active[j] = active[j - gap]
                 j -= gap
             active[j] = edge
         gap //= 3
+
+
+def _is_behind(a, b):
+    """Whether edge `a` belongs behind edge `b`."""
+    return a.bound > b.bound or (a.bound == b.bound and a.rank > b.rank)

@@ -97,6 +97,14 @@ paths = st.lists(st.tuples(coordinates, coordinates), min_size=3, max_size=4)
 
 @examples(2)
 @given(paths, styles, antialiases, boxes, st.booleans(), st.sampled_from(["miter", "round", "bevel"]))
+@example(  # more edges meet in the whole than a plain sort takes
+    [(19, 5), (66 / 256, 0), (19, 0)],
+    {"width": 2, "cap": "round", "dash": [1], "op": "over"},
+    "blurred",
+    (2, 0, 1, 6),
+    False,
+    "round",
+)
 def test_nor_do_clips_and_views_change_a_path(package, points, style, antialias, box, closed, join):
     style = {**style, "antialias": antialias_of(package, antialias), "closed": closed, "join": join}
     whole, clipped, viewed = (package.Framebuffer(WIDTH, HEIGHT, 8) for _ in range(3))
