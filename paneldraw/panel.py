@@ -16,23 +16,24 @@ from typing import TYPE_CHECKING, Any, Final, Literal, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from paneldraw import urls, watching
 from paneldraw.care import Care
 from paneldraw.controllers import BUSES, CHIPS, Controller, features
 from paneldraw.controllers.packing import highest
-from paneldraw.cycling import Cycling
 from paneldraw.driver import Driver
 from paneldraw.errors import PanelError, PanelTimeoutError, TransportError, did_you_mean
 from paneldraw.framebuffer import Framebuffer, pictures
 from paneldraw.framebuffer.pictures import Dither
 from paneldraw.framebuffer.scaling import Fit
 from paneldraw.leaving import arrange, follow
-from paneldraw.pacing import Frames
 from paneldraw.sender import Sender
-from paneldraw.transports import I2CTransport, SerialTransport, SPITransport, Transport
+from paneldraw.transports import I2CTransport, Transport
 
 if TYPE_CHECKING:
     from typing_extensions import Self  # part of mypy; of Python from 3.11 on
+
+    from paneldraw import urls
+    from paneldraw.cycling import Cycling
+    from paneldraw.pacing import Frames
 
 Levels = npt.NDArray[np.uint8]
 OnClose = Literal["keep", "clear", "off"]
@@ -199,7 +200,11 @@ class Panel:
         try:
             self._set_up(record, transport, contrast, updates, refresh)
             wire: dict[str, Any] = {"bus_share": bus_share, "bus_clock": bus_clock, "weighted": weighted}
-            self._cycling = None if greys == 1 else Cycling(self._driver, self.stats, greys, **wire, updates=updates)
+            self._cycling: Cycling | None = None
+            if greys != 1:
+                from paneldraw.cycling import Cycling
+
+                self._cycling = Cycling(self._driver, self.stats, greys, **wire, updates=updates)
             self._care = Care(dim_after, off_after, pixel_shift, time.monotonic())
             self.rotate = rotate
             _check_on_close(on_close)
@@ -440,6 +445,8 @@ class Panel:
         ...     if beat.number >= 3:
         ...         break
         """
+        from paneldraw.pacing import Frames
+
         return Frames(fps)
 
     def play(
@@ -1073,13 +1080,15 @@ def open_panel(url: str | None = None) -> Panel:
     ...     panel
     <Panel ssd1306 128x32, rotate=0>
     """
+    from paneldraw import transports, urls, watching  # a script that makes a Panel does not pay for all of them
+
     wanted = _wanted(url)
     transport: Transport
     simulated = None
     with _source_named(url), contextlib.ExitStack() as unless_done:
         watch = watching.asked(wanted)
         if isinstance(wanted, urls.SerialURL):
-            transport = port = SerialTransport(wanted.port, wanted.baudrate)
+            transport = port = transports.SerialTransport(wanted.port, wanted.baudrate)
             unless_done.callback(port.close)
             controller = wanted.controller(port.device)
         else:
@@ -1087,9 +1096,9 @@ def open_panel(url: str | None = None) -> Panel:
             if wanted.scheme == "sim":
                 transport, simulated, bus = _simulated(wanted)
             elif wanted.scheme == "spi":
-                transport = SPITransport(int(wanted.bus), **wanted.transport)
+                transport = transports.SPITransport(int(wanted.bus), **wanted.transport)
             else:
-                transport = I2CTransport(wanted.bus, wanted.address, **wanted.transport)
+                transport = transports.I2CTransport(wanted.bus, wanted.address, **wanted.transport)
             unless_done.callback(transport.close)
         if watch:
             twin, chip, bus = (None, simulated, bus) if simulated else _simulated(wanted.twin(controller))
@@ -1112,6 +1121,8 @@ def open_panel(url: str | None = None) -> Panel:
 
 def _wanted(url: str | None) -> urls.PanelURL | urls.SerialURL:
     """The URL that is meant, taken apart."""
+    from paneldraw import urls, watching
+
     if url is not None:
         return urls.parse(url)
     named = os.environ.get("PANELDRAW_PANEL")
@@ -1125,10 +1136,10 @@ def _wanted(url: str | None) -> urls.PanelURL | urls.SerialURL:
 
 def _simulated(wanted: urls.PanelURL) -> tuple[Transport, Any, Any]:
     """Make a simulated chip, on the first kind of bus that it can sit on; return transport, chip and bus."""
-    from paneldraw import simulator  # a script with a real panel does not pay for it
+    from paneldraw import simulator, transports
 
     chip = simulator.simulated_chip(wanted.controller, wanted.module)
     bus = simulator.simulated_bus(chip, wanted.controller, wanted.address)
     if isinstance(bus, simulator.I2CBus):
-        return I2CTransport(bus, wanted.address), chip, bus
-    return SPITransport(spi=bus.spi, pins=bus.pins, dc=bus.dc, reset=bus.reset), chip, bus
+        return transports.I2CTransport(bus, wanted.address), chip, bus
+    return transports.SPITransport(spi=bus.spi, pins=bus.pins, dc=bus.dc, reset=bus.reset), chip, bus

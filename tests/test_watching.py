@@ -209,7 +209,7 @@ def on_bus(monkeypatch, name, record):
     def on_it(number=0, *, device=0, spi=None, pins=None, **settings):
         return SPITransport(spi=spi or bus.spi, pins=pins or bus.pins, **settings)
 
-    monkeypatch.setattr("paneldraw.panel.SPITransport", on_it)
+    monkeypatch.setattr("paneldraw.transports.SPITransport", on_it)
     return chip, f"spi://0.0?chip={name}"
 
 

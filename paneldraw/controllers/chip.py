@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
 from types import MappingProxyType
-from typing import Any, Final
+from typing import Any, Final, NamedTuple
 
 from paneldraw.controllers.record import Contrast, Controller, PagePointer, Window, commands, only_commands
 
@@ -23,8 +22,7 @@ _CHOICES: Final[Mapping[str, Sequence[int]]] = MappingProxyType(
 """What overrides can be on any chip."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Module:
+class Module(NamedTuple):
     """One module: a chip's glass, its wiring and which way up it is. What `Chip.init` and `Chip.window` are made of.
 
     ``upright`` is the argument of ``A0`` of a module that is bonded otherwise than the chip's common one.
@@ -100,8 +98,7 @@ class Module:
         return f"{0x40 + -(last if self._lines & 8 else self.first_com) % 64:02X}"
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Chip:
+class Chip(NamedTuple):
     """What one kind of chip has, and, called, a `Controller` of it.
 
     Attributes
@@ -160,7 +157,7 @@ class Chip:
     modules: Mapping[Size, Mapping[str, Any]]
     init: Callable[[Module], str]
     overrides: tuple[str, ...] = ()
-    choices: Mapping[str, Sequence[int]] = field(default_factory=dict)
+    choices: Mapping[str, Sequence[int]] = MappingProxyType({})
     mirrors: bool = True
     fold: int = 1 << 10
     upright: tuple[int, int] = (0xA1, 0xC8)
@@ -171,10 +168,10 @@ class Chip:
     window: Callable[[Module], Window] | None = None
     pointer: PagePointer | None = None
     buses: tuple[str, ...] = ("i2c", "spi")
-    contrast: Contrast | None = field(default_factory=Contrast)
+    contrast: Contrast | None = Contrast()
     drive: Callable[[Module], tuple[str, ...]] | None = None
     address: int = 0x3C
-    facts: Mapping[str, Any] = field(default_factory=dict)
+    facts: Mapping[str, Any] = MappingProxyType({})
 
     @property
     def sizes(self) -> tuple[Size, ...]:

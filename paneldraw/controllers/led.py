@@ -8,8 +8,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
-from typing import Any, Final
+from typing import Any, Final, NamedTuple
 
 from paneldraw.controllers.chip import Size, listed
 from paneldraw.controllers.record import Contrast, Controller, Effect, Registers, commands
@@ -32,8 +31,7 @@ _MIRRORS: Final = ("mirror_x", "mirror_y")
 _LACKING: Final[dict[str, Any]] = {"resync": b"", "normal": b"", "inverse": b"", "status_off": 0}
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Chain:
+class Chain(NamedTuple):
     """A chip of 8 x 8 LEDs of which any number stand in a row, and, called, a `Controller` of a wall of them.
 
     Attributes
@@ -59,11 +57,10 @@ class Chain:
     all_on: bytes = b""
     follow: tuple[bytes, ...] = ()
     sizes: tuple[Size, ...] = ((32, 8), (8, 8), (64, 8), (128, 8), (32, 16), (64, 16), (32, 32), (64, 64))
-
-    buses = ("spi",)
-    depth = 1
-    parameters = ("order", "first_block", "block_rotation", "mirror_blocks", *_MIRRORS)
-    address = 0x3C
+    buses: tuple[str, ...] = ("spi",)
+    depth: int = 1
+    parameters: tuple[str, ...] = ("order", "first_block", "block_rotation", "mirror_blocks", *_MIRRORS)
+    address: int = 0x3C
 
     def __call__(
         self,
@@ -229,8 +226,7 @@ MAX7219 = Chain(
 # -- Chips alone
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Matrix:
+class Matrix(NamedTuple):
     """A chip that lights a matrix of LEDs alone, and, called, a `Controller` of a module of it.
 
     Attributes
@@ -262,8 +258,7 @@ class Matrix:
     first: int
     command_bytes: int
     blink: Effect | None = None
-
-    buses = ("i2c",)
+    buses: tuple[str, ...] = ("i2c",)
 
     @property
     def sizes(self) -> tuple[Size, ...]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Final
+from typing import Final, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -43,8 +43,7 @@ def commands(text: str) -> tuple[bytes | float, ...]:
     )
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class PagePointer:
+class PagePointer(NamedTuple):
     """One way to say where data goes: ``B0+p 00+lo 10+hi``, of which each can be sent alone, or the like.
 
     Attributes
@@ -83,8 +82,7 @@ class PagePointer:
     column_bytes: int = 1
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Window:
+class Window(NamedTuple):
     """Another way: a rectangle, whose columns and rows each have a command, first and last one as arguments.
 
     The command puts the pointer at its first column or row; data fills the rectangle, and from its end goes on at its
@@ -115,8 +113,7 @@ class Window:
     write: bytes = b""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Registers:
+class Registers(NamedTuple):
     """The way of LED chips: a RAM of a few registers, and messages that begin with the number of the first they write.
 
     On I2C such a message has no control byte. Commands are messages of their own.
@@ -150,8 +147,7 @@ class Registers:
     chips: int = 0
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Contrast:
+class Contrast(NamedTuple):
     """How a chip is told the brightness of lit pixels.
 
     Attributes
@@ -187,8 +183,7 @@ class Contrast:
         return *self.before, command, *self.after
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Scroll:
+class Scroll(NamedTuple):
     """How a chip moves its picture by itself.
 
     A way is a command in hex, to the right; its first byte is one less than that to the left. In braces are the names
@@ -235,8 +230,7 @@ class Scroll:
         return bytes((right + to_left, *arguments))
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Effect:
+class Effect(NamedTuple):
     """What a chip does with its light by itself.
 
     Attributes

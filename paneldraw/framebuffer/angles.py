@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
-from fractions import Fraction
 from math import atan2, cos, degrees, hypot, nextafter, radians, sin, tan
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from fractions import Fraction
 
 _EXACT = 1 << 53
 _NEARLY = nextafter(360, 0)
@@ -17,8 +20,11 @@ Turn = tuple[float, float]
 
 def sweep(start: float, end: float) -> float:
     """How far it is clockwise from one angle to another: less than 360 degrees, or 360 for that and more."""
-    near = max(abs(start), abs(end)) < _EXACT
-    turned = end - start if near else Fraction(end) - Fraction(start)
+    turned: float | Fraction = end - start
+    if max(abs(start), abs(end)) >= _EXACT:
+        from fractions import Fraction  # brings decimal along
+
+        turned = Fraction(end) - Fraction(start)
     return 360 if turned >= 360 else min(float(turned % 360), _NEARLY)
 
 

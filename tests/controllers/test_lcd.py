@@ -355,8 +355,8 @@ def test_urls_of_real_buses_know_the_chip(monkeypatch):
         made.append((place, settings))
         raise PanelError("no bus here")
 
-    monkeypatch.setattr(panel, "SPITransport", transport)
-    monkeypatch.setattr(panel, "I2CTransport", transport)
+    monkeypatch.setattr("paneldraw.transports.SPITransport", transport)
+    monkeypatch.setattr("paneldraw.transports.I2CTransport", transport)
     for url in (
         "spi://0.0?chip=pcd8544",
         "spi://0.1?chip=st7920&speed=500000",

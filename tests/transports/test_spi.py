@@ -424,7 +424,7 @@ def test_a_url_says_everything(monkeypatch):
         made.update(wiring, place=place)
         return SPITransport(spi=bus.spi, pins=bus.pins)
 
-    monkeypatch.setattr("paneldraw.panel.SPITransport", transport)
+    monkeypatch.setattr("paneldraw.transports.SPITransport", transport)
     url = "spi://1.2?chip=ssd1306&size=128x32&dc=GPIO5&reset=none&gpiochip=4&speed=0x10&rotate=180&on_close=clear"
     with open_panel(url) as panel:
         assert panel.simulated is None
