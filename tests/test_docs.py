@@ -297,7 +297,7 @@ def no_beat_is_late(monkeypatch):
         time.sleep(seconds)  # the simulated panel's frames are timed by the wall
 
     frames = functools.partial(pacing.Frames, clock=lambda: math.fsum(paused), sleep=pause)
-    monkeypatch.setattr("paneldraw.panel.Frames", frames)
+    monkeypatch.setattr("paneldraw.pacing.Frames", frames)
 
 
 @pytest.mark.usefixtures("no_beat_is_late")
