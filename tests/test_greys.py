@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
@@ -110,7 +111,10 @@ def test_contrasts_give_light_in_the_ratio_of_the_weights() -> None:
     assert light[1] / light[0] == pytest.approx(2, rel=0.02)
 
 
-@pytest.mark.parametrize("light", [(0.0, 1.0), tuple(range(255, -1, -1)), (0.0,) * 256])
+@pytest.mark.parametrize(
+    "light",
+    [(0.0, 1.0), tuple(range(255, -1, -1)), (0.0,) * 256, (math.nan,) * 256, (*range(255), math.inf)],
+)
 def test_a_table_that_is_none_is_refused(light: tuple[float, ...]) -> None:
     with pytest.raises(ValueError, match="light must be 256 figures that rise"):
         Response(light, "").contrasts((1, 2), 255)

@@ -101,7 +101,8 @@ class Response(NamedTuple):
         ValueError
             The table is no table of 256 rising figures.
         """
-        if len(self.light) != 256 or any(a > b for a, b in itertools.pairwise(self.light)) or self.light[-1] <= 0:
+        rising = all(a <= b for a, b in itertools.pairwise(self.light))  # which nothing is beside a NaN
+        if len(self.light) != 256 or not rising or not 0 < self.light[-1] < math.inf:
             raise ValueError(f"light must be 256 figures that rise, one a contrast, not {len(self.light)}")
         unit = self.light[most] / max(weights)
         return tuple(int(np.abs(np.array(self.light) - unit * weight).argmin()) for weight in weights)
