@@ -25,6 +25,9 @@ if TYPE_CHECKING:
 
 Steps = Literal["bayer", "blue-noise"]
 
+#: So far points may lie that their distance, squared, is still a number.
+_FARTHEST = 1e150
+
 
 class Ink(ABC):
     """A level for every pixel of a framebuffer, counted from its pixel (0, 0)."""
@@ -190,7 +193,7 @@ class Gradient(Ink):
         tones, dither
             As for `Gradient`.
         """
-        radius = float(real("r", r))
+        radius = float(min(real("r", r), _FARTHEST))
         if radius <= 0:
             raise ValueError(f"r must be above 0, and is {r}")
         gradient = cls(center, center, tones, dither=dither)
@@ -201,7 +204,9 @@ class Gradient(Ink):
         left, top, right, bottom = box
         x = np.arange(left, right) - self._start[0]
         y = (np.arange(top, bottom) - self._start[1])[:, np.newaxis]
-        grays = np.rint(255 * np.interp(self._shares(x, y), self._where, self._tones)).astype(np.uint8)
+        with np.errstate(over="ignore"):  # a share too large for a number lies beyond the end
+            shares = self._shares(x, y)
+        grays = np.rint(255 * np.interp(shares, self._where, self._tones)).astype(np.uint8)
         return pictures.quantize(grays, max_level, self._dither, place=(left, top)), None
 
     def _shares(self, x: NDArray[Any], y: NDArray[Any]) -> NDArray[Any]:
@@ -234,7 +239,8 @@ def _place(name: str, place: Any) -> tuple[float, float]:
         x, y = place
     except (TypeError, ValueError):
         raise TypeError(f"{name} must be a point (x, y), not {place!r}") from None
-    return float(real(name, x)), float(real(name, y))
+    column, row = (float(min(max(real(name, number), -_FARTHEST), _FARTHEST)) for number in (x, y))
+    return column, row
 
 
 def _stops(tones: Any) -> tuple[list[float], list[float]]:

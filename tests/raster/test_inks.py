@@ -211,6 +211,26 @@ def test_a_radial_gradient_goes_by_the_distance(package, center, r, tones):
         assert abs(level - 255 * (a + (b - a) * (t - t0) / (t1 - t0))) <= 0.501
 
 
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize(
+    ("make", "columns"),
+    [
+        (lambda p: p.Gradient((1e308, 0), (-1e308, 3)), [128] * 3),
+        (lambda p: p.Gradient((10**400, 0), (-(10**400), 0)), [128] * 3),
+        (lambda p: p.Gradient((1, 0), (1 + 1e-310, 0)), [255] * 3),
+        (lambda p: p.Gradient((0, 0), (1e-310, 0)), [0, 255, 255]),
+        (lambda p: p.Gradient.radial((0, 0), 1e-320), [0, 255, 255]),
+        (lambda p: p.Gradient.radial((-1e308, 1e308), 3), [255] * 3),
+        (lambda p: p.Gradient.radial((0, 0), 10**400), [0] * 3),
+        (lambda p: p.Pattern("#", (-(10**400), 10**400)), [255] * 3),
+    ],
+)
+def test_inks_may_begin_and_end_far_away_or_in_a_point(package, make, columns):
+    fb = package.Framebuffer(3, 1, 8)
+    fb.fill(make(package))
+    assert fb.pixels.tolist() == [columns]
+
+
 @pytest.mark.parametrize(
     ("make", "error", "message"),
     [
