@@ -208,6 +208,9 @@ class _Dial(NamedTuple):
 class Number(Widget):
     """A number as large as fits, its unit beside it, and above, where there is room, what it is.
 
+    Without a `font`, it is written in the built-in ``"numbers"`` or ``"segments"``, or in the default one where those
+    have no room.
+
     Attributes
     ----------
     value : float or str
@@ -217,9 +220,6 @@ class Number(Widget):
         How the number is written, as for `format`.
     segments : bool
         Whether its digits are those of a seven-segment display, where they have room.
-
-    Without a `font`, it is written in the built-in ``"numbers"`` or ``"segments"``, or in the default one where those
-    have no room.
 
     Examples
     --------
