@@ -199,7 +199,7 @@ def run_greys(
         if answer == "y":
             found.parameters.append(f"greys={greys}")
             return found
-        if answer == "f":
+        if answer == "f" and not found.advice:
             found.advice.append("a faster bus, and bus_clock= with its rate")
     return found
 

@@ -131,7 +131,7 @@ def test_text_inverted(capsys):
     assert "█" * 40 in capsys.readouterr().out
 
 
-@pytest.mark.parametrize(("answers", "greys"), [("y", "greys=4"), ("fy", "greys=3"), ("bn", "")])
+@pytest.mark.parametrize(("answers", "greys"), [("y", "greys=4"), ("fy", "greys=3"), ("ff", ""), ("bn", "")])
 def test_greys_are_tried_until_they_are_steady(answers, greys):
     asked, opened = iter(answers), []
 
