@@ -229,15 +229,15 @@ class Framebuffer:
         inside = choice("align", given.pop("align"), ALIGNMENTS) == ALIGNMENTS["inside"]
         line_width(width)
         operation(op)
-        area, band = self._blank(), self._blank()
+        area, stroke = self._blank(), self._blank()
         getattr(area, name)(c=255, fill=True, **given)
-        getattr(band, name)(c=255, width=2 * width, **given)
+        getattr(stroke, name)(c=255, width=2 * width, **given)
         if inside:
-            cover = area.pixels if fill else np.minimum(area.pixels, band.pixels)
+            cover = area.pixels if fill else np.minimum(area.pixels, stroke.pixels)
         else:
-            cover = np.maximum(area.pixels, band.pixels)
+            cover = np.maximum(area.pixels, stroke.pixels)
             cover = cover if fill else cover - area.pixels
-        self._cover(cover, c if _is_ink(c) else level(self.surface, c), op)
+        self._cover(cover, level(self.surface, c), op)
 
     def _blank(self):
         """A framebuffer of 8 bits a pixel, as large and clipped alike, to find on what a shape covers."""
