@@ -15,7 +15,7 @@ if not _compiled.COMPILED:
 if TYPE_CHECKING:
     from paneldraw.animation import Animation
     from paneldraw.framebuffer import Framebuffer
-    from paneldraw.framebuffer.inks import Gradient, Pattern
+    from paneldraw.framebuffer.paints import Gradient, Pattern
     from paneldraw.framebuffer.sprites import Sprite
     from paneldraw.panel import Panel, open_panel
     from paneldraw.raster.cone import ConeFilter
@@ -30,9 +30,9 @@ _LATER = {
     "ConeFilter": "raster.cone",
     "Font": "text",
     "Framebuffer": "framebuffer",
-    "Gradient": "framebuffer.inks",
+    "Gradient": "framebuffer.paints",
     "Panel": "panel",
-    "Pattern": "framebuffer.inks",
+    "Pattern": "framebuffer.paints",
     "Sprite": "framebuffer.sprites",
     "Supersample": "raster.coverage",
     "open_panel": "panel",

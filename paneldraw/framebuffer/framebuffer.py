@@ -30,7 +30,7 @@ from paneldraw.framebuffer import pictures
 from paneldraw.framebuffer.alignment import ALIGNMENTS, aligned_box, aligned_radius, outward
 from paneldraw.framebuffer.angles import sweep
 from paneldraw.framebuffer.arguments import LARGEST, check_antialias, choice, in_turn, line_width, real, size, whole
-from paneldraw.framebuffer.inks import Ink, covered_box
+from paneldraw.framebuffer.paints import Paint, covered_box
 from paneldraw.framebuffer.scaling import check_fit, checked_size
 from paneldraw.raster.surface import OPS
 
@@ -112,11 +112,11 @@ class Framebuffer:
     -----
     Every drawing call raises ``TypeError`` for a coordinate that is not a number, and ``ValueError`` for one that is
     not finite, for a level outside of 0 ... max_level, and for a negative size. In each call `c` is the level
-    (default: the highest) or an ink, and `op` says how it meets the level that is there: ``"over"`` replaces it,
+    (default: the highest) or a paint, and `op` says how it meets the level that is there: ``"over"`` replaces it,
     ``"xor"`` combines the bits, ``"add"`` adds up to the highest level, ``"max"`` keeps the higher and ``"clear"``
     makes it 0.
 
-    An ink, a `Pattern` or `Gradient`, has a level for every pixel, with which that one is painted, once a call, as far
+    A paint, a `Pattern` or `Gradient`, has a level for every pixel, with which that one is painted, once a call, as far
     as the shape covers it: to the nearest 255th, and with one bit a pixel where that is half or more.
 
     Aliased and of width 1, curves are the midpoint method's. Wider or anti-aliased, an outline goes along the true
@@ -198,10 +198,10 @@ class Framebuffer:
         check_antialias(value)
         self.painter.antialias = value
 
-    def _inked(self, name, given):
-        """Draw with an ink: its levels, as far as the same call with the highest level covers pixels of 8 bits."""
+    def _draw_with_paint(self, name, given):
+        """Draw with a paint: its levels, as far as the same call with the highest level covers pixels of 8 bits."""
         del given["self"]
-        ink, op = given.pop("c"), given.pop("op", "over")
+        paint, op = given.pop("c"), given.pop("op", "over")
         code: cython.int = operation(op)
         shape = self._blank()
         if name == "flood_fill":
@@ -216,7 +216,7 @@ class Framebuffer:
         if code == OVER and given.get("inverse"):
             # The characters are dark.
             getattr(self, name)(c=0, **given)
-        self._cover(cover, ink, op)
+        self._cover(cover, paint, op)
         return result
 
     def _aligned(self, name, given):
@@ -247,13 +247,13 @@ class Framebuffer:
         return shape
 
     def _cover(self, cover, c, op):
-        """Paint pixels with a level or an ink as far as they are covered, in 255ths."""
+        """Paint pixels with a level or a paint as far as they are covered, in 255ths."""
         box = covered_box(cover)
         if box is None:
             return
         left, top, right, bottom = box
         cover = cover[top:bottom, left:right]
-        if _is_ink(c):
+        if _is_paint(c):
             levels, opacity = c.levels(box, self.surface.max_level)
             if opacity is not None:
                 cover = np.rint(cover * (opacity / 255)).astype(np.uint8)
@@ -263,10 +263,10 @@ class Framebuffer:
 
     # -- Points and lines
 
-    def fill(self, c: int | Ink | None) -> None:
+    def fill(self, c: int | Paint | None) -> None:
         """Set every pixel, or within `clip` those of its window, to level `c` (None: the highest)."""
-        if _is_ink(c):
-            self._inked("fill", locals())
+        if _is_paint(c):
+            self._draw_with_paint("fill", locals())
             return
         self.painter.fill(c)
 
@@ -275,7 +275,7 @@ class Framebuffer:
         self.fill(0)
 
     @cython.locals(surface=Surface, column=cython.longlong, row=cython.longlong, color=cython.longlong)
-    def pixel(self, x: int | float, y: int | float, c: int | Ink | None = None, *, op: str = "over") -> int | None:
+    def pixel(self, x: int | float, y: int | float, c: int | Paint | None = None, *, op: str = "over") -> int | None:
         """Paint one pixel with level `c`, or, with no level given, return the level it has (0 outside).
 
         Examples
@@ -297,8 +297,8 @@ class Framebuffer:
             return 0
         color = quick(c)
         if not 0 <= color <= surface.max_level:
-            if _is_ink(c):
-                self._inked("pixel", {"self": self, "x": x, "y": y, "c": c, "op": op})
+            if _is_paint(c):
+                self._draw_with_paint("pixel", {"self": self, "x": x, "y": y, "c": c, "op": op})
                 return None
             color = level(surface, c)
         if not is_word(op, "over"):
@@ -309,20 +309,20 @@ class Framebuffer:
         return None
 
     def hline(
-        self, x: int | float, y: int | float, w: int | float, c: int | Ink | None = None, *, op: str = "over"
+        self, x: int | float, y: int | float, w: int | float, c: int | Paint | None = None, *, op: str = "over"
     ) -> None:
         """Draw a horizontal line of `w` pixels from (x, y) to the right; a negative `w` raises ``ValueError``."""
-        if _is_ink(c):
-            self._inked("hline", locals())
+        if _is_paint(c):
+            self._draw_with_paint("hline", locals())
             return
         self.painter.run(x, y, w, True, c, op)
 
     def vline(
-        self, x: int | float, y: int | float, h: int | float, c: int | Ink | None = None, *, op: str = "over"
+        self, x: int | float, y: int | float, h: int | float, c: int | Paint | None = None, *, op: str = "over"
     ) -> None:
         """Draw a vertical line of `h` pixels from (x, y) downward; a negative `h` raises ``ValueError``."""
-        if _is_ink(c):
-            self._inked("vline", locals())
+        if _is_paint(c):
+            self._draw_with_paint("vline", locals())
             return
         self.painter.run(x, y, h, False, c, op)
 
@@ -332,7 +332,7 @@ class Framebuffer:
         y1: int | float,
         x2: int | float,
         y2: int | float,
-        c: int | Ink | None = None,
+        c: int | Paint | None = None,
         *,
         width: int | float = 1,
         cap: str = "square",
@@ -389,8 +389,8 @@ class Framebuffer:
         ....##..
         ......##
         """
-        if _is_ink(c):
-            self._inked("line", locals())
+        if _is_paint(c):
+            self._draw_with_paint("line", locals())
             return
         style = self.painter.style(c, op, width, antialias, cap, "miter", dash)
         dda = 0 if is_word(algorithm, "bresenham") else choice("algorithm", algorithm, _ALGORITHMS)
@@ -399,7 +399,7 @@ class Framebuffer:
     def lines(
         self,
         segments: ArrayLike,
-        c: int | Ink | None = None,
+        c: int | Paint | None = None,
         *,
         width: int | float = 1,
         cap: str = "square",
@@ -432,14 +432,14 @@ class Framebuffer:
         ........
         ########
         """
-        if _is_ink(c):
-            self._inked("lines", locals())
+        if _is_paint(c):
+            self._draw_with_paint("lines", locals())
             return
         style = self.painter.style(c, op, width, antialias, cap, "miter", dash)
         dda = 0 if is_word(algorithm, "bresenham") else choice("algorithm", algorithm, _ALGORITHMS)
         self.painter.segments(rows_of("segments", segments, 4, 1 if style.thin else 256), style, dda)
 
-    def points(self, xy: ArrayLike, c: int | Ink | None = None, *, op: str = "over") -> None:
+    def points(self, xy: ArrayLike, c: int | Paint | None = None, *, op: str = "over") -> None:
         """Paint many pixels in one call: the rows (x, y) of an array of shape (n, 2).
 
         A pixel that is there twice is painted twice.
@@ -458,8 +458,8 @@ class Framebuffer:
         #...
         ...#
         """
-        if _is_ink(c):
-            self._inked("points", locals())
+        if _is_paint(c):
+            self._draw_with_paint("points", locals())
             return
         self.painter.paint_with(c, op)
         self.painter.points(rows_of("xy", xy, 2, 1))
@@ -470,7 +470,7 @@ class Framebuffer:
         y1: int | float,
         x2: int | float,
         y2: int | float,
-        c: int | Ink | None = None,
+        c: int | Paint | None = None,
         *,
         heads: str = "end",
         head: int | float | None = None,
@@ -513,8 +513,8 @@ class Framebuffer:
         .......###..
         .......#....
         """
-        if _is_ink(c):
-            self._inked("arrow", locals())
+        if _is_paint(c):
+            self._draw_with_paint("arrow", locals())
             return
         points = [real(name, number) for name, number in (("x1", x1), ("y1", y1), ("x2", x2), ("y2", y2))]
         style = self.painter.style(c, op, width, antialias, cap, "miter", dash)
@@ -525,7 +525,7 @@ class Framebuffer:
     def polyline(
         self,
         points: ArrayLike,
-        c: int | Ink | None = None,
+        c: int | Paint | None = None,
         *,
         closed: bool = False,
         width: int | float = 1,
@@ -573,8 +573,8 @@ class Framebuffer:
         .#...#.
         #.....#
         """
-        if _is_ink(c):
-            self._inked("polyline", locals())
+        if _is_paint(c):
+            self._draw_with_paint("polyline", locals())
             return
         style = self.painter.style(c, op, width, antialias, cap, join, dash)
         if heads is not None:
@@ -585,7 +585,7 @@ class Framebuffer:
     def bezier(
         self,
         points: ArrayLike,
-        c: int | Ink | None = None,
+        c: int | Paint | None = None,
         *,
         closed: bool = False,
         fill: bool = False,
@@ -645,8 +645,8 @@ class Framebuffer:
         #......###..
         #...........
         """
-        if _is_ink(c):
-            self._inked("bezier", locals())
+        if _is_paint(c):
+            self._draw_with_paint("bezier", locals())
             return
         style = self.painter.style(c, op, width, antialias, cap, join, dash)
         if heads is not None:
@@ -657,7 +657,7 @@ class Framebuffer:
     def curve(
         self,
         points: ArrayLike,
-        c: int | Ink | None = None,
+        c: int | Paint | None = None,
         *,
         closed: bool = False,
         fill: bool = False,
@@ -711,8 +711,8 @@ class Framebuffer:
         .#.....#..#..
         #.......##...
         """
-        if _is_ink(c):
-            self._inked("curve", locals())
+        if _is_paint(c):
+            self._draw_with_paint("curve", locals())
             return
         style = self.painter.style(c, op, width, antialias, cap, join, dash)
         if heads is not None:
@@ -728,7 +728,7 @@ class Framebuffer:
         y2: int | float,
         x3: int | float,
         y3: int | float,
-        c: int | Ink | None = None,
+        c: int | Paint | None = None,
         fill: bool = False,
         *,
         width: int | float = 1,
@@ -764,8 +764,8 @@ class Framebuffer:
         .#...#.
         #######
         """
-        if _is_ink(c):
-            self._inked("triangle", locals())
+        if _is_paint(c):
+            self._draw_with_paint("triangle", locals())
             return
         if not is_word(align, "center"):
             self._aligned("triangle", locals())
@@ -779,7 +779,7 @@ class Framebuffer:
         x: int | float,
         y: int | float,
         coords: ArrayLike,
-        c: int | Ink | None = None,
+        c: int | Paint | None = None,
         fill: bool = False,
         *,
         rule: str = "even-odd",
@@ -835,8 +835,8 @@ class Framebuffer:
         ..###..
         ...#...
         """
-        if _is_ink(c):
-            self._inked("poly", locals())
+        if _is_paint(c):
+            self._draw_with_paint("poly", locals())
             return
         if not is_word(align, "center"):
             self._aligned("poly", locals())
@@ -856,7 +856,7 @@ class Framebuffer:
         y: int | float,
         w: int | float,
         h: int | float,
-        c: int | Ink | None = None,
+        c: int | Paint | None = None,
         fill: bool = False,
         *,
         angle: int | float = 0,
@@ -908,8 +908,8 @@ class Framebuffer:
         .#.....#.
         .#######.
         """
-        if _is_ink(c):
-            self._inked("rect", locals())
+        if _is_paint(c):
+            self._draw_with_paint("rect", locals())
             return
         if not is_word(align, "center"):
             box = aligned_box((x, y, w, h), outward(align, width))
@@ -930,7 +930,7 @@ class Framebuffer:
         w: int | float,
         h: int | float,
         r: int | float,
-        c: int | Ink | None = None,
+        c: int | Paint | None = None,
         fill: bool = False,
         *,
         corners: int = 0b1111,
@@ -972,8 +972,8 @@ class Framebuffer:
         #.......#
         .#######.
         """
-        if _is_ink(c):
-            self._inked("round_rect", locals())
+        if _is_paint(c):
+            self._draw_with_paint("round_rect", locals())
             return
         if not is_word(align, "center"):
             off = outward(align, width)
@@ -997,7 +997,7 @@ class Framebuffer:
         x: int | float,
         y: int | float,
         r: int | float,
-        c: int | Ink | None = None,
+        c: int | Paint | None = None,
         fill: bool = False,
         *,
         width: int | float = 1,
@@ -1040,8 +1040,8 @@ class Framebuffer:
         .f...f.5c4.4c5
         ..fff...5dfd5.
         """
-        if _is_ink(c):
-            self._inked("circle", locals())
+        if _is_paint(c):
+            self._draw_with_paint("circle", locals())
             return
         if not is_word(align, "center"):
             radius = aligned_radius("r", r, outward(align, width))
@@ -1058,7 +1058,7 @@ class Framebuffer:
         y: int | float,
         xr: int | float,
         yr: int | float,
-        c: int | Ink | None = None,
+        c: int | Paint | None = None,
         fill: bool = False,
         quadrants: int = 0b1111,
         *,
@@ -1112,8 +1112,8 @@ class Framebuffer:
         .#.......#.
         ..#######..
         """
-        if _is_ink(c):
-            self._inked("ellipse", locals())
+        if _is_paint(c):
+            self._draw_with_paint("ellipse", locals())
             return
         quarters = size("quadrants", quadrants)
         if not 0 <= quarters <= 15:
@@ -1138,7 +1138,7 @@ class Framebuffer:
         r: int | float,
         start: int | float,
         end: int | float,
-        c: int | Ink | None = None,
+        c: int | Paint | None = None,
         *,
         yr: int | float | None = None,
         width: int | float = 1,
@@ -1189,8 +1189,8 @@ class Framebuffer:
         #.......#
         #.......#
         """
-        if _is_ink(c):
-            self._inked("arc", locals())
+        if _is_paint(c):
+            self._draw_with_paint("arc", locals())
             return
         start, end = real("start", start), real("end", end)
         style = self.painter.style(c, op, width, antialias, cap, "miter", dash)
@@ -1209,7 +1209,7 @@ class Framebuffer:
         r: int | float,
         start: int | float,
         end: int | float,
-        c: int | Ink | None = None,
+        c: int | Paint | None = None,
         fill: bool = False,
         *,
         width: int | float = 1,
@@ -1253,8 +1253,8 @@ class Framebuffer:
         #......#
         ########
         """
-        if _is_ink(c):
-            self._inked("sector", locals())
+        if _is_paint(c):
+            self._draw_with_paint("sector", locals())
             return
         start, end = real("start", start), real("end", end)
         style = self.painter.style(c, op, width, antialias, "butt")
@@ -1265,7 +1265,13 @@ class Framebuffer:
             self.painter.slice(x, y, r, start % 360, end % 360, swept, fill, style)
 
     def flood_fill(
-        self, x: int | float, y: int | float, c: int | Ink | None = None, *, border: int | None = None, op: str = "over"
+        self,
+        x: int | float,
+        y: int | float,
+        c: int | Paint | None = None,
+        *,
+        border: int | None = None,
+        op: str = "over",
     ) -> int:
         """Fill the area that (x, y) lies in: the pixels of its level that hang together with it.
 
@@ -1309,8 +1315,8 @@ class Framebuffer:
         ##......
         #.......
         """
-        if _is_ink(c):
-            return self._inked("flood_fill", locals())
+        if _is_paint(c):
+            return self._draw_with_paint("flood_fill", locals())
         return self.painter.flood(x, y, c, border, op)
 
     # -- Text and pictures
@@ -1320,7 +1326,7 @@ class Framebuffer:
         s: str,
         x: int | float,
         y: int | float,
-        c: int | Ink | None = None,
+        c: int | Paint | None = None,
         *,
         font: Font | None = None,
         anchor: str = "la",
@@ -1378,8 +1384,8 @@ class Framebuffer:
         .........
         .........
         """
-        if _is_ink(c):
-            self._inked("text", locals())
+        if _is_paint(c):
+            self._draw_with_paint("text", locals())
             return
         self.painter.paint_with(c, op)
         if is_word(direction, "right") and inverse is False and quick(line_spacing) == 0:
@@ -1394,7 +1400,7 @@ class Framebuffer:
         y: int | float,
         w: int | float,
         h: int | float,
-        c: int | Ink | None = None,
+        c: int | Paint | None = None,
         *,
         font: Font | None = None,
         align: Align = "left",
@@ -1454,8 +1460,8 @@ class Framebuffer:
         >>> fb.text_box("Rain in the afternoon, wind from the west", 0, 0, 64, 16, ellipsis="")
         'afternoon, wind from the west'
         """
-        if _is_ink(c):
-            return self._inked("text_box", locals())
+        if _is_paint(c):
+            return self._draw_with_paint("text_box", locals())
         self.painter.paint_with(c, op)
         style = (align, valign, wrap, ellipsis, line_spacing)
         return write_box(self.painter.coverage, s, x, y, w, h, font, style, inverse)
@@ -1791,12 +1797,12 @@ class Framebuffer:
 @cython.inline
 @cython.returns(cython.bint)
 @cython.exceptval(-1)
-def _is_ink(c):
+def _is_paint(c):
     return c is not None and type(c) is not int and _is_of_class_ink(c)
 
 
 def _is_of_class_ink(c):
-    return isinstance(c, Ink)
+    return isinstance(c, Paint)
 
 
 def _surface_of(source):

@@ -27,7 +27,7 @@ cdef class Stroke:
 
     cdef object path(self, double *points, Py_ssize_t count, bint closed, int cap, int end_cap)
     cdef bint _is_smooth(self, double *points, Py_ssize_t i, Py_ssize_t j, double dot, double cross) noexcept
-    cdef object _strip(self, double *points, Py_ssize_t count, Py_ssize_t first, Py_ssize_t last)
+    cdef object _outline(self, double *points, Py_ssize_t count, Py_ssize_t first, Py_ssize_t last)
     cdef (double, double) _aside(
         self, double *points, Py_ssize_t count, Py_ssize_t i, Py_ssize_t first, Py_ssize_t last
     ) noexcept

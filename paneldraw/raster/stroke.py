@@ -153,20 +153,20 @@ class Stroke:
             ux, uy = _unit_vector(points, i % count, j)
             if i > 0 and (i == segments or not self._is_smooth(points, i, j, vx * ux + vy * uy, vx * uy - vy * ux)):
                 self._corner(points[2 * (i % count)], points[2 * (i % count) + 1], vx, vy, ux, uy)
-                self._strip(points, count, first, i)
+                self._outline(points, count, first, i)
                 first = i
             if i < segments and not closed and i == 0:
                 start: tuple[cython.double, cython.double] = self._direction(points[0], points[1], ux, uy)
                 self._cap(points[0], points[1], -start[0], -start[1], cap)
         if not closed:
-            self._strip(points, count, first, segments)
+            self._outline(points, count, first, segments)
             x: cython.double = points[2 * segments]
             y: cython.double = points[2 * segments + 1]
             end: tuple[cython.double, cython.double] = self._direction(x, y, ux, uy)
             self._cap(x, y, end[0], end[1], end_cap)
 
     def _is_smooth(self, points, i, j, dot, cross):
-        """Whether the segments before and behind point i, that to point j, bend so little that they are one strip.
+        """Whether the segments before and behind point i, that to point j, bend so little that they have one outline.
 
         Then all joins are within a quarter of a 256th of each other, and the inner sides meet within both segments.
         """
@@ -179,7 +179,7 @@ class Stroke:
         shorter: cython.double = min(_length(points, i - 1, i), _length(points, i, j))
         return self.half * bend * bend <= _FLAT and 2 * self.half * bend <= shorter
 
-    def _strip(self, points, count, first, last):
+    def _outline(self, points, count, first, last):
         """Add what is around the segments from point `first` to point `last` of a path, which is smooth between.
 
         One shape for all of a curve, and not a rectangle for every chord: 2.4 times as fast, 7 times if filtered.
@@ -194,7 +194,7 @@ class Stroke:
         self.contours.close()
 
     def _aside(self, points, count, i, first, last):
-        """From point i of a strip to its left side: square to its ends, halfway between its segments elsewhere."""
+        """From point i of an outline to its left side: square to its ends, halfway between its segments elsewhere."""
         at: cython.Py_ssize_t = i % count
         half: cython.double = self.half
         ux, uy = _unit_vector(points, at, (i + 1) % count) if i < last else _unit_vector(points, (i - 1) % count, at)

@@ -175,12 +175,12 @@ def turned(fb: Framebuffer, dice: Dice, c: int, style: dict[str, Any]) -> None:
     )()
 
 
-def inked(fb: Framebuffer, dice: Dice, c: int, style: dict[str, Any]) -> None:
+def painted(fb: Framebuffer, dice: Dice, c: int, style: dict[str, Any]) -> None:
     """Draw with patterns and gradients, and fill an area."""
     ((x, y), (x2, y2)) = dice.points(2)
-    ink = dice.one_of(Pattern.bricks.at(x, y), Gradient((x, y), (x2, y2)), Gradient.radial((x, y), 1 + dice.size()))
-    fb.ellipse(30, 18, dice.size(), dice.size(), ink, bool(dice.below(2)), width=dice.width(), **style)
-    fb.flood_fill(dice.within(0, 60), dice.within(0, 36), dice.one_of(c, ink), op=style["op"])
+    paint = dice.one_of(Pattern.bricks.at(x, y), Gradient((x, y), (x2, y2)), Gradient.radial((x, y), 1 + dice.size()))
+    fb.ellipse(30, 18, dice.size(), dice.size(), paint, bool(dice.below(2)), width=dice.width(), **style)
+    fb.flood_fill(dice.within(0, 60), dice.within(0, 36), dice.one_of(c, paint), op=style["op"])
 
 
 def small(fb: Framebuffer, dice: Dice, c: int, style: dict[str, Any]) -> None:
@@ -213,7 +213,7 @@ KINDS: tuple[Draw, ...] = (
     curve,
     arrow,
     turned,
-    inked,
+    painted,
 )
 
 

@@ -83,13 +83,13 @@ def test_polygons_have_the_half_of_a_wider_outline_that_is_inside_or_outside(pac
 
 @pytest.mark.parametrize("name", POLYGONS)
 def test_an_aligned_polygon_with_an_ink(package, name):
-    plain, inked = package.Framebuffer(32, 30), package.Framebuffer(32, 30)
-    with plain.clip(3, 3, 20, 20), inked.clip(3, 3, 20, 20):
+    plain, painted = package.Framebuffer(32, 30), package.Framebuffer(32, 30)
+    with plain.clip(3, 3, 20, 20), painted.clip(3, 3, 20, 20):
         getattr(plain, name)(*POLYGONS[name], width=4, align="inside")
-        getattr(inked, name)(*POLYGONS[name], package.Pattern.checker, width=4, align="inside")
+        getattr(painted, name)(*POLYGONS[name], package.Pattern.checker, width=4, align="inside")
     y, x = np.ogrid[:30, :32]
     assert plain.pixels.any()
-    assert (inked.pixels == np.where((x + y) % 2, 0, plain.pixels)).all()
+    assert (painted.pixels == np.where((x + y) % 2, 0, plain.pixels)).all()
 
 
 def test_a_rectangle_outside_is_the_larger_one(package):

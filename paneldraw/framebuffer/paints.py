@@ -29,7 +29,7 @@ Steps = Literal["bayer", "blue-noise"]
 _FARTHEST = 1e150
 
 
-class Ink(ABC):
+class Paint(ABC):
     """A level for every pixel of a framebuffer, counted from its pixel (0, 0)."""
 
     @abstractmethod
@@ -54,7 +54,7 @@ class _Ready:
         return owner(self._text)
 
 
-class Pattern(Ink):
+class Pattern(Paint):
     """A small picture that repeats over the framebuffer, to draw with in the place of a level.
 
     It lies still: shapes side by side that are drawn with the same pattern meet without a seam.
@@ -126,7 +126,7 @@ class Pattern(Ink):
         return f"<Pattern {self._sprite.width}x{self._sprite.height}, origin={self._origin}>"
 
 
-class Gradient(Ink):
+class Gradient(Paint):
     """Tones that go over into each other, to draw with in the place of a level.
 
     Parameters

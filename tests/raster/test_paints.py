@@ -1,4 +1,4 @@
-"""Patterns and gradients in the place of a level, by definition: each pixel's ink as far as the shape covers it."""
+"""Patterns and gradients in the place of a level, by definition: each pixel's paint as far as the shape covers it."""
 
 from __future__ import annotations
 
@@ -44,8 +44,8 @@ places = st.tuples(st.integers(-30, 30), st.integers(-30, 30))
 
 
 @st.composite
-def inks(draw, package):
-    """An ink, and what it says of a pixel of a framebuffer with a highest level: a level, and whether it is opaque."""
+def paints(draw, package):
+    """A paint, and what it says of a pixel of a framebuffer with a highest level: a level, and whether it is opaque."""
     if draw(st.booleans()):
         rows = draw(st.integers(1, 4).flatmap(lambda w: st.lists(st.text("#.0", min_size=w, max_size=w), min_size=1)))
         x0, y0 = draw(places)
@@ -73,7 +73,7 @@ def drawn(fb, name, **more):
 @examples(2)
 @given(st.data(), st.sampled_from([1, 2, 4, 8]), st.sampled_from(OPS), st.sampled_from([None, 3, "cone"]))
 def test_each_pixel_meets_its_ink_as_far_as_the_call_covers_it(package, name, data, depth, op, n):
-    ink, at = data.draw(inks(package))
+    paint, at = data.draw(paints(package))
     smooth = package.ConeFilter() if n == "cone" else n and package.Supersample(n)
     fb = package.Framebuffer(WIDTH, HEIGHT, depth, antialias=smooth)
     cover = package.Framebuffer(WIDTH, HEIGHT, 8, antialias=smooth)
@@ -81,7 +81,7 @@ def test_each_pixel_meets_its_ink_as_far_as_the_call_covers_it(package, name, da
     fb.pixels[:] = before
     left, top, width, height = window = data.draw(st.sampled_from([(0, 0, WIDTH, HEIGHT), (4, 3, 9, 8)]))
     with fb.clip(*window), cover.clip(*window):
-        drawn(fb, name, c=ink, **({"op": op} if name != "fill" else {}))
+        drawn(fb, name, c=paint, **({"op": op} if name != "fill" else {}))
         drawn(cover, name, c=255)
     for (y, x), covered in np.ndenumerate(cover.pixels):
         share = Fraction(int(covered), 255)
@@ -134,17 +134,17 @@ def test_a_flood_fill_with_an_ink(package, depth, border, place):
 @pytest.mark.parametrize("depth", [1, 4])
 def test_inverse_text_is_dark_on_the_ink(package, call, depth):
     place = (1, 1) if call == "text" else (0, 0, 20, 10)
-    on_dark, on_bright, inked, left = (package.Framebuffer(20, 10, depth) for _ in range(4))
+    on_dark, on_bright, painted, left = (package.Framebuffer(20, 10, depth) for _ in range(4))
     on_bright.fill(None)
-    for fb in (inked, left):
+    for fb in (painted, left):
         fb.fill(1)
     for fb in (on_dark, on_bright):
         getattr(fb, call)("Ab", *place, inverse=True)
     around, characters = on_dark.pixels > 0, on_bright.pixels == 0
     assert characters.any()
-    getattr(inked, call)("Ab", *place, package.Pattern("#0"), inverse=True)
-    stripes = np.where(np.arange(20) % 2, 0, np.where(around, inked.max_level, 1))
-    assert (inked.pixels == np.where(characters, 0, np.where(around, stripes, 1))).all()
+    getattr(painted, call)("Ab", *place, package.Pattern("#0"), inverse=True)
+    stripes = np.where(np.arange(20) % 2, 0, np.where(around, painted.max_level, 1))
+    assert (painted.pixels == np.where(characters, 0, np.where(around, stripes, 1))).all()
     getattr(left, call)("Ab", *place, package.Pattern("0"), inverse=True, op="max")
     assert (left.pixels == 1).all()
 
@@ -225,7 +225,7 @@ def test_a_radial_gradient_goes_by_the_distance(package, center, r, tones):
         (lambda p: p.Pattern("#", (-(10**400), 10**400)), [255] * 3),
     ],
 )
-def test_inks_may_begin_and_end_far_away_or_in_a_point(package, make, columns):
+def test_paints_may_begin_and_end_far_away_or_in_a_point(package, make, columns):
     fb = package.Framebuffer(3, 1, 8)
     fb.fill(make(package))
     assert fb.pixels.tolist() == [columns]
