@@ -49,6 +49,7 @@ cdef long long top_left(str name, object value) except? -1
 cdef long long coordinate(str name, object value, long long unit) except? -1
 cdef long long extent(str name, object value, long long unit) except? -1
 cdef int level(Surface surface, object c) except? -1
+cdef int level_named(object name, Surface surface, object value) except? -1
 cdef long long *int64s(object memory) except? NULL
 cdef unsigned char *uint8s(object memory) except? NULL
 

@@ -105,16 +105,21 @@ def extent(name, value, unit):
 
 def level(surface, c):
     """The level that `c` means on a surface: the highest for None."""
-    number: cython.longlong
     if c is None:
         return surface.max_level
-    number = _quick(c, 1) if type(c) is int else FAR
-    if number == FAR:
-        if isinstance(c, float):
-            raise TypeError("c must be a whole number, and is a float; round it first")
-        number = min(max(size("c", c), -1), 256)
+    number: cython.longlong = _quick(c, 1) if type(c) is int else FAR
+    if 0 <= number <= surface.max_level:
+        return cython.cast(cython.int, number)
+    return level_named("c", surface, c)
+
+
+def level_named(name, surface, value):
+    """As `level`, of an argument of another name, which is a number."""
+    if isinstance(value, float):
+        raise TypeError(f"{name} must be a whole number, and is a float; round it first")
+    number: cython.longlong = min(max(size(name, value), -1), 256)
     if not 0 <= number <= surface.max_level:
-        raise ValueError(f"c must be a level from 0 to {surface.max_level}, not {c}")
+        raise ValueError(f"{name} must be a level from 0 to {surface.max_level}, not {value}")
     return cython.cast(cython.int, number)
 
 

@@ -5,7 +5,16 @@ from __future__ import annotations
 
 import cython
 import numpy as np
-from cython.cimports.paneldraw.framebuffer.arguments import BEYOND, extent, is_word, level, near_pixel, top_left, uint8s
+from cython.cimports.paneldraw.framebuffer.arguments import (
+    BEYOND,
+    extent,
+    is_word,
+    level,
+    level_named,
+    near_pixel,
+    top_left,
+    uint8s,
+)
 from cython.cimports.paneldraw.raster.blit import Picture, blit, block, mix, paint_grays, scroll
 from cython.cimports.paneldraw.raster.glyphs import Glyphs, one_line, stamp, write
 from cython.cimports.paneldraw.raster.surface import ADD, OVER, XOR, Surface
@@ -124,7 +133,7 @@ def paint_seen(surface, before, picture, place, fill, options, tones):
     top: cython.longlong = top_left("y", y)
     code: cython.int = operation(op)
     size = options["size"]
-    around: cython.int = -1 if fill is None else level(surface, fill)
+    around: cython.int = -1 if fill is None else level_named("fill", surface, fill)
     dither = tones["dither"]
     pictures.check_dither(dither)
     window = (surface.left, surface.top, surface.right, surface.bottom)

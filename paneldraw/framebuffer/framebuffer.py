@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import cython
 import numpy as np
-from cython.cimports.paneldraw.framebuffer.arguments import FAR, is_word, level, near_pixel, quick, rows_of
+from cython.cimports.paneldraw.framebuffer.arguments import FAR, is_word, level, level_named, near_pixel, quick, rows_of
 from cython.cimports.paneldraw.framebuffer.copying import (
     copy_levels,
     move_levels,
@@ -206,7 +206,7 @@ class Framebuffer:
         shape = self._blank()
         if name == "flood_fill":
             if given["border"] is not None:
-                level(self.surface, given["border"])
+                level_named("border", self.surface, given["border"])
             shape.pixels[...] = self.pixels
             result = shape.flood_fill(c=255, op="xor", **given)
             cover = np.where(shape.pixels == self.pixels, np.uint8(0), np.uint8(255))

@@ -18,6 +18,7 @@ from cython.cimports.paneldraw.framebuffer.arguments import (
     int64s,
     is_word,
     level,
+    level_named,
     near_pixel,
     points_of,
     quick,
@@ -602,7 +603,7 @@ class Painter:
         surface: Surface = self.surface
         column: cython.longlong = near_pixel("x", x)
         row: cython.longlong = near_pixel("y", y)
-        edge: cython.int = 0 if border is None else level(surface, border)
+        edge: cython.int = 0 if border is None else level_named("border", surface, border)
         if not (surface.left <= column < surface.right and surface.top <= row < surface.bottom):
             return 0
         if border is None:

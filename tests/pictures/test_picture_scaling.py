@@ -157,7 +157,7 @@ def test_fits_are_known(package, bad):
 
 
 def test_levels_to_fill_with_are_levels(package):
-    with pytest.raises(ValueError, match=r"^c must be a level from 0 to 1, not 2"):
+    with pytest.raises(ValueError, match=r"^fill must be a level from 0 to 1, not 2"):
         package.Framebuffer(4, 4).image(np.zeros((6, 8), np.uint8), fit="contain", fill=2)
 
 

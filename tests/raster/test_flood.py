@@ -76,7 +76,7 @@ def test_a_spiral_and_a_whole_picture(package):
         ({"x": "0"}, TypeError, "x must be a number"),
         ({"y": float("nan")}, ValueError, "y must be finite"),
         ({"c": 2}, ValueError, "c must be a level"),
-        ({"border": -1}, ValueError, "must be a level"),
+        ({"border": -1}, ValueError, "border must be a level"),
         ({"op": "under"}, ValueError, "op must be one of"),
     ],
 )

@@ -247,13 +247,13 @@ def test_paints_may_begin_and_end_far_away_or_in_a_point(package, make, columns)
         (lambda p: p.Gradient.radial((0, 0), 0), ValueError, "r must be above 0"),
     ],
 )
-def test_what_is_no_ink_is_refused(package, make, error, message):
+def test_what_is_no_paint_is_refused(package, make, error, message):
     with pytest.raises(error, match=message):
         make(package)
 
 
 @pytest.mark.parametrize("name", CALLS)
-def test_a_wrong_argument_beside_an_ink_is_named_and_nothing_is_drawn(package, name):
+def test_a_wrong_argument_beside_a_paint_is_named_and_nothing_is_drawn(package, name):
     fb = package.Framebuffer(WIDTH, HEIGHT)
     if name != "fill":
         with pytest.raises(ValueError, match="op must be one of"):
@@ -261,6 +261,6 @@ def test_a_wrong_argument_beside_an_ink_is_named_and_nothing_is_drawn(package, n
     for number in (1.5, "#"):
         with pytest.raises(TypeError, match="c must be a whole number"):
             drawn(fb, name, c=number)
-    with pytest.raises(ValueError, match="c must be a level"):
+    with pytest.raises(ValueError, match="border must be a level"):
         fb.flood_fill(1, 1, package.Pattern.checker, border=9)
     assert not fb.pixels.any()
