@@ -178,7 +178,7 @@ def test_a_page_pointer_that_is_lost_behind_data_does_no_harm(package, updates, 
     controller = chip(chained_control=True)
     planner = importlib.import_module("paneldraw.update").Planner(controller, I2C, updates)
     planner.restart()
-    ram = PointedRam(replace(controller, pointer=replace(controller.pointer, mode=b"", wraps=False)), forgets=True)
+    ram = PointedRam(replace(controller, pointer=controller.pointer._replace(mode=b"", wraps=False)), forgets=True)
     for frame in frames(data.draw, (8, 128), 3):
         planner.fresh[:] = frame
         plan = planner.plan()

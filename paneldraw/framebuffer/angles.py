@@ -20,8 +20,10 @@ Turn = tuple[float, float]
 
 def sweep(start: float, end: float) -> float:
     """How far it is clockwise from one angle to another: less than 360 degrees, or 360 for that and more."""
-    turned: float | Fraction = end - start
-    if max(abs(start), abs(end)) >= _EXACT:
+    turned: float | Fraction
+    if max(abs(start), abs(end)) < _EXACT:
+        turned = end - start
+    else:
         from fractions import Fraction  # brings decimal along
 
         turned = Fraction(end) - Fraction(start)
