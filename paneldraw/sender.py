@@ -37,8 +37,7 @@ class Sender:
         # Rung for the thread; releasing a lock costs a third of notifying a condition.
         self._bell = threading.Lock()
         self._bell.acquire()
-        self._waiting: npt.NDArray[np.uint8] | None = None
-        self._max_level = 1
+        self._waiting: tuple[npt.NDArray[np.uint8], int] | None = None
         self._busy = False
         self._stopped = False
         self.error: BaseException | None = None
@@ -49,11 +48,14 @@ class Sender:
         """Hand over a picture; return whether it takes the place of one that waited."""
         with self._lock:
             dropped = self._waiting is not None
-            self._waiting, self._max_level = pixels, max_level
+            self._waiting = pixels, max_level
             if self._thread is None:
                 self._start()
-            if self._bell.locked():  # not in a method: after a pause each call takes 2 us
-                self._bell.release()
+            try:  # not in a method: after a pause each call takes 2 us
+                if self._bell.locked():
+                    self._bell.release()
+            except RuntimeError:
+                pass  # a signal handler rang it between the two
         return dropped
 
     def wake_at(self, seconds: float | None) -> None:
@@ -93,8 +95,11 @@ class Sender:
 
     def _ring(self) -> None:
         """Wake the thread; `_change` is held."""
-        if self._bell.locked():
-            self._bell.release()
+        try:
+            if self._bell.locked():
+                self._bell.release()
+        except RuntimeError:
+            pass  # a signal handler rang it between the two
 
     def _work(self) -> None:
         while True:
@@ -104,13 +109,13 @@ class Sender:
                 patience = -1.0 if self._due is None else max(0.0, self._due - time.monotonic())
                 patience = min(patience, threading.TIMEOUT_MAX)
                 busy = self._busy = self._waiting is not None or self._overdue()
-                pixels, max_level, self._waiting = self._waiting, self._max_level, None
-                if pixels is None and busy:
+                waiting, self._waiting = self._waiting, None
+                if waiting is None and busy:
                     self._due = None
             if not busy:
                 self._bell.acquire(timeout=patience)
                 continue
-            self._serve(pixels, max_level)
+            self._serve(waiting)
             with self._change:
                 self._busy = False
                 self._change.notify_all()
@@ -118,15 +123,15 @@ class Sender:
     def _overdue(self) -> bool:
         return self._due is not None and time.monotonic() >= self._due
 
-    def _serve(self, pixels: npt.NDArray[np.uint8] | None, max_level: int) -> None:
+    def _serve(self, waiting: tuple[npt.NDArray[np.uint8], int] | None) -> None:
         panel = self._panel()
         if panel is None:
             self._stopped = True
             return
         try:
-            if pixels is None:
+            if waiting is None:
                 panel._look_after()
             else:
-                panel._show(pixels, max_level)
+                panel._show(*waiting)
         except BaseException as error:  # the caller's to hear, whatever it is
             self.error = error

@@ -468,11 +468,13 @@ def test_a_picture_from_a_signal_handler_hangs_nothing(alarm: Any) -> None:
     with panel:
         levels, other = picture(panel), picture(panel, 40)
         alarm(lambda *_: panel.show(other))
-        signal.setitimer(signal.ITIMER_REAL, 0.002, 0.002)
-        end = time.monotonic() + 0.3
-        while time.monotonic() < end:
-            panel.show(levels)
-        signal.setitimer(signal.ITIMER_REAL, 0)
+        try:
+            signal.setitimer(signal.ITIMER_REAL, 0.002, 0.002)
+            end = time.monotonic() + 0.3
+            while time.monotonic() < end:
+                panel.show(levels)
+        finally:
+            signal.setitimer(signal.ITIMER_REAL, 0)
         panel.show(other)
         panel.flush(5)
         assert until(lambda: chip.frames[-1].pixels.tobytes() in sub_pictures(other))
