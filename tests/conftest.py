@@ -81,6 +81,8 @@ class Sources:
             shutil.copyfile(file, copy)
         self.folder = folder
         self.modules = {}
+        # What compiled modules import late and keep, they have to find before another copy is in place.
+        paneldraw.Framebuffer(8, 8).text("a", 0, 0)
 
     @contextmanager
     def in_place(self):

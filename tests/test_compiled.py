@@ -119,6 +119,14 @@ def run(folder, code):
     return done.stdout.split()
 
 
+def test_compiled_text_keeps_its_own_fonts_beside_another_copy(sources):
+    with sources.in_place():
+        paneldraw.Framebuffer(8, 8).text("a", 0, 0)
+    fb = paneldraw.Framebuffer(8, 8)
+    fb.text("a", 0, 0, font=paneldraw.Font.builtin("8x8"))
+    assert fb.pixels.any()
+
+
 @pytest.mark.parametrize("first", ["paneldraw.raster.stroke", "paneldraw.controllers.packing", "paneldraw.panel"])
 def test_the_sources_wait_until_one_is_needed(sources, first):
     code = f"""if True:
