@@ -522,9 +522,17 @@ class Painter:
             extent("h", h, 256)
         if across == 0 or down == 0:
             return
-        beyond = 0 if style.thin or not fill else style.width // 2
-        box = [left - beyond, top - beyond, across - 256 + 2 * beyond, down - 256 + 2 * beyond]
-        self.polygon(turned_box(box, angle), fill, False, style.thin, style)
+        box = [left, top, across - 256, down - 256]
+        if style.thin or (style.dash is not None and not fill):
+            self.polygon(turned_box(box, angle), fill, False, style.thin, style)
+            return
+        corners = turned_box(_grown(box, style.width // 2), angle)
+        inner = _grown(box, -(style.width // 2))
+        if not fill and min(inner[2:]) > 0:
+            # There and back along one edge, which then bounds nothing. Corners of their own keep short sides exact.
+            hole = turned_box(inner, angle)
+            corners += [*corners[:2], *hole, *hole[:2]]
+        self.polygon(corners, True, False, False, style)
 
     def turned_ellipse(self, x, y, xr, yr, angle, fill, style):
         """Draw an ellipse turned around its center."""
@@ -879,6 +887,12 @@ def _check_controls(count):
 def _in_steps(dash):
     """The lengths of a dash pattern in whole pixels."""
     return list(array("q", dash_steps(dash)))
+
+
+def _grown(box, beyond):
+    """A box (x, y, w, h) that reaches further on all sides."""
+    x, y, w, h = box
+    return [x - beyond, y - beyond, w + 2 * beyond, h + 2 * beyond]
 
 
 def _in_256ths(names):
